@@ -100,4 +100,38 @@ parallelRanges (const RunContext& run, std::size_t count, Body&& body)
   });
 }
 
+/// Values that the ranges of parallelRanges () find, each in a list of its own.
+template <typename Value>
+class RangeLists
+{
+public:
+  explicit RangeLists (std::size_t count) : lists_ ((count + RANGE_LENGTH - 1) / RANGE_LENGTH) {}
+
+  /// The list of the range that begins at `first`.
+  std::vector<Value>& of (std::size_t first) { return lists_[first / RANGE_LENGTH]; }
+
+  std::size_t size () const
+  {
+    std::size_t sum = 0;
+    for (const std::vector<Value>& list : lists_)
+      sum += list.size ();
+    return sum;
+  }
+
+  /// All values in the order of the ranges. Frees the lists.
+  std::vector<Value> join ()
+  {
+    std::vector<Value> all;
+    all.reserve (size ());
+    for (std::vector<Value>& list : lists_) {
+      all.insert (all.end (), list.begin (), list.end ());
+      std::vector<Value> ().swap (list);
+    }
+    return all;
+  }
+
+private:
+  std::vector<std::vector<Value>> lists_;
+};
+
 } // namespace pcl::floater

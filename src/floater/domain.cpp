@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/domain.h"
 
+#include "core/exact.h"
 #include "core/geometry.h"
-#include "core/order_statistics.h"
-#include "core/run_context.h"
-#include "floater/own_shape.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pcl::floater {
 namespace {
 // Two steps g and h on a curve of curvature c turn left by an area of c g h / 2. To survive
 // rounding, it must be well above the distance of doubles near 1, which is 2e-16. With these two
 // values it is 8e-15 or more.
-// these two values it is 8e-15 or more.
 constexpr double SHORTEST_STEP = 4e-6;
 constexpr double SIDE_CURVATURE = 1e-3;
 
@@ -112,12 +112,168 @@ layOnRegularPolygon (const std::vector<double>& chords, std::size_t corners)
   return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 
+using Outline = std::vector<Eigen::Vector2d>;
+
+// The loop in its least-squares plane along its principal axes, anti-clockwise, in the unit circle.
+Outline
+project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
+{
+  const Eigen::Vector3d& origin = positions[loop.front ()];
+  PlaneFit fit;
+  for (const Index p : loop)
+    fit.add (positions[p] - origin);
+  const PrincipalAxes principal = fit.principalAxes ();
+  Outline outline;
+  outline.reserve (loop.size ());
+  for (const Index p : loop) {
+    const Eigen::Vector3d offset = positions[p] - origin - principal.centre;
+    outline.emplace_back (principal.axes.col (2).dot (offset), principal.axes.col (1).dot (offset));
+  }
+  double area = 0.0;
+  for (std::size_t i = 0; i < outline.size (); ++i)
+    area += cross (outline[i], outline[i + 1 == outline.size () ? 0 : i + 1]);
+  Eigen::AlignedBox2d box;
+  for (Eigen::Vector2d& p : outline) {
+    if (area < 0.0)
+      p.y () = -p.y ();
+    box.extend (p);
+  }
+  double radius = 0.0;
+  for (Eigen::Vector2d& p : outline) {
+    p -= box.center ();
+    radius = std::max (radius, p.norm ());
+  }
+  for (Eigen::Vector2d& p : outline)
+    p /= radius > 0.0 ? radius : 1.0;
+  return outline;
+}
+
+// As many hull vertices as possible with the same order along loop and hull. Both are cycles, cut
+// at the hull's vertex that comes first in the loop.
+std::vector<std::size_t>
+inLoopOrder (std::vector<std::size_t> hull)
+{
+  if (hull.empty ())
+    return hull;
+  std::rotate (hull.begin (), std::min_element (hull.begin (), hull.end ()), hull.end ());
+  // Longest increasing subsequence: ends[l] is the smallest last element of those of length l + 1.
+  std::vector<std::size_t> ends, before (hull.size (), 0);
+  for (std::size_t i = 0; i < hull.size (); ++i) {
+    const auto at =
+        std::lower_bound (ends.begin (), ends.end (), hull[i],
+                          [&hull] (std::size_t end, std::size_t p) { return hull[end] < p; });
+    if (at != ends.begin ())
+      before[i] = *(at - 1);
+    if (at == ends.end ())
+      ends.push_back (i);
+    else
+      *at = i;
+  }
+  std::vector<std::size_t> ordered (ends.size ());
+  for (std::size_t length = ends.size (), i = ends.back (); length > 0; i = before[i])
+    ordered[--length] = hull[i];
+  return ordered;
+}
+
+// Least length of the first of `steps` steps on a side.
+double
+firstStep (double side, std::size_t steps)
+{
+  return steps == 1 ? side : std::min (SHORTEST_STEP, 0.5 * side / static_cast<double> (steps));
+}
+
+// Whether b can be a corner between the corners a and c, given the numbers of steps of the loop
+// between them.
+bool
+isFit (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+       std::size_t steps_before, std::size_t steps_after)
+{
+  constexpr double SMALLEST_AREA = 1e-14; // twice the area of a turn; 50 times its rounding error
+  const Eigen::Vector2d before = b - a, after = c - b;
+  const double turn = std::atan2 (cross (before, after), before.dot (after));
+  // At each end of a side, the bulge reduces the turn by half of its curvature times the side's
+  // length.
+  const double taken = 0.5 * SIDE_CURVATURE * (before.norm () + after.norm ());
+  const double area = (turn - taken) * firstStep (before.norm (), steps_before) *
+                      firstStep (after.norm (), steps_after);
+  // Too many steps on a side with so little bulge would not turn left after rounding.
+  const auto crowded = [] (double side, std::size_t steps) {
+    const double step = firstStep (side, steps);
+    return steps > 1 && 0.5 * SIDE_CURVATURE * step * step < 0.5 * SMALLEST_AREA;
+  };
+  return turn > 2.0 * taken && area > SMALLEST_AREA && !crowded (before.norm (), steps_before) &&
+         !crowded (after.norm (), steps_after);
+}
+
+// A convex polygon whose corners are points of a loop.
+struct OwnShape
+{
+  std::vector<std::size_t> corners;    // indices in the loop, ascending; empty: there is no shape
+  std::vector<Eigen::Vector2d> places; // of the corners, anti-clockwise, in the unit circle
+};
+
+// Projects the loop on its least-squares plane, seen anti-clockwise, and scales it into the unit
+// circle around the middle of its extent along its principal axes. The corners are the vertices of
+// the convex hull except for those in another order along the loop than along the hull (where the
+// projection crosses itself), those at which the hull turns too little for bulging sides, and those
+// too near to the next one for the points between them. There is no shape if fewer than three are
+// left. O(n log n).
+OwnShape
+findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
+{
+  constexpr std::size_t FEWEST = 3;
+  const Outline outline = project (positions, loop);
+  std::vector<std::size_t> corners = inLoopOrder (convexHull (outline));
+  const auto steps = [&loop] (std::size_t from, std::size_t to) {
+    return to > from ? to - from : to + loop.size () - from;
+  };
+  // Repeatedly drops corners that do not fit between the remaining ones.
+  for (bool changed = true; changed && corners.size () >= FEWEST;) {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < corners.size (); ++i) {
+      const std::size_t before = kept.empty () ? corners.back () : kept.back ();
+      const bool last = i + 1 == corners.size ();
+      const std::size_t after = !last ? corners[i + 1] : kept.empty () ? corners[i] : kept.front ();
+      if (before != after && isFit (outline[before], outline[corners[i]], outline[after],
+                                    steps (before, corners[i]), steps (corners[i], after)))
+        kept.push_back (corners[i]);
+    }
+    changed = kept.size () < corners.size ();
+    corners = std::move (kept);
+  }
+  OwnShape shape;
+  if (corners.size () < FEWEST)
+    return shape;
+  for (const std::size_t corner : corners)
+    shape.places.push_back (outline[corner]);
+  shape.corners = std::move (corners);
+  return shape;
+}
+
+// Whether a closed polygon turns left at every point and once around in total, in double precision.
+bool
+isStrictlyConvex (const std::vector<Eigen::Vector2d>& polygon)
+{
+  const std::size_t count = polygon.size ();
+  double turn = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    // Differences of nearly equal numbers are exact, so the sign of the cross product is right.
+    const Eigen::Vector2d before = polygon[(i + 1) % count] - polygon[i];
+    const Eigen::Vector2d after = polygon[(i + 2) % count] - polygon[(i + 1) % count];
+    const double sine = cross (before, after);
+    if (!(sine > 0.0))
+      return false;
+    turn += std::atan2 (sine, before.dot (after));
+  }
+  return count >= 3 && std::abs (turn - 2.0 * PI) < 1.0;
+}
+
 // \return empty if the loop has no own shape, or one that is not convex after rounding
 std::vector<Eigen::Vector2d>
 layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
                std::vector<double> chords)
 {
-  OwnShape shape = findOwnShape (positions, loop, {SIDE_CURVATURE, SHORTEST_STEP});
+  OwnShape shape = findOwnShape (positions, loop);
   if (shape.corners.empty ())
     return {};
   // The first corner must be the first point of the loop: rotate the loop, and the result back.
@@ -165,106 +321,6 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
     return layOnCircle (chords);
   const int sides = options.curve == Domain::SQUARE ? 4 : std::max (3, options.polygon_sides);
   return layOnRegularPolygon (chords, std::min (count, static_cast<std::size_t> (sides)));
-}
-
-namespace {
-// The reversed lists: row q holds the points p, ascending, whose row holds q. Only entries for
-// which use (p, q) is true.
-template <typename Use>
-CsrLists
-reverse (const CsrLists& lists, Use&& use)
-{
-  return makeCsrLists (lists.rows (), [&] (const auto& emit) {
-    for (std::size_t p = 0; p < lists.rows (); ++p)
-      for (const Index q : lists.row (p))
-        if (use (p, q))
-          emit (q, static_cast<Index> (p));
-  });
-}
-
-// Marks and appends all points that lead to the entries of the queue from `head` on.
-void
-search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
-        std::vector<std::uint8_t>& reachable, const RunContext& run)
-{
-  ProgressLoop progress (run);
-  for (; head < queue.size (); ++head) {
-    progress.next ();
-    for (const Index p : leading_to.row (queue[head]))
-      if (reachable[p] == 0) {
-        reachable[p] = 1;
-        queue.push_back (p);
-      }
-  }
-}
-
-// Links point p to the nearest reached points. Ties go to the smaller point.
-void
-linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
-           const std::vector<Eigen::Vector3d>& positions,
-           const std::vector<std::uint8_t>& reachable, std::size_t most,
-           std::vector<std::array<Index, 2>>& links)
-{
-  std::vector<std::pair<double, Index>> candidates;
-  for (const Row row : {nearest.row (p), nearest_of.row (p)})
-    for (const Index q : row)
-      if (reachable[q] != 0)
-        candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
-  sortUnique (candidates);
-  candidates.resize (std::min (candidates.size (), most));
-  for (const auto& candidate : candidates)
-    links.push_back ({p, candidate.second});
-}
-
-} // namespace
-
-Reachability
-reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
-           const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
-           const RunContext& run, const DiscLimits& limits)
-{
-  Reachability result;
-  std::vector<std::uint8_t>& reachable = result.reachable;
-  reachable.assign (positions.size (), 0);
-  std::vector<Index> queue;
-  queue.reserve (positions.size ());
-  for (const Index p : loop)
-    if (reachable[p] == 0) {
-      reachable[p] = 1;
-      queue.push_back (p);
-    }
-  const CsrLists leading_to =
-      reverse (neighbors, [&] (std::size_t p, Index) { return reachable[p] == 0; });
-  search (leading_to, queue, 0, reachable, run);
-  if (queue.size () == positions.size ())
-    return result;
-
-  // Most entries are between two reached points, and are not needed.
-  const CsrLists nearest_of = reverse (
-      nearest, [&] (std::size_t p, Index q) { return reachable[p] == 0 || reachable[q] == 0; });
-  std::vector<std::uint8_t> waiting (positions.size (), 0); // listed for linking
-  std::vector<Index> round;
-  for (std::size_t head = 0; head < queue.size ();) {
-    // Unreached points next to a point that was reached since the last round.
-    round.clear ();
-    for (; head < queue.size (); ++head)
-      for (const Row row : {nearest.row (queue[head]), nearest_of.row (queue[head])})
-        for (const Index p : row)
-          if (reachable[p] == 0 && waiting[p] == 0) {
-            waiting[p] = 1;
-            round.push_back (p);
-          }
-    for (const Index p : round)
-      linkPoint (p, nearest, nearest_of, positions, reachable, limits.links_per_point,
-                 result.links);
-    for (const Index p : round)
-      reachable[p] = 1;
-    queue.insert (queue.end (), round.begin (), round.end ());
-    result.linked_points += round.size ();
-    search (leading_to, queue, head, reachable, run);
-  }
-  std::sort (result.links.begin (), result.links.end ());
-  return result;
 }
 
 } // namespace pcl::floater

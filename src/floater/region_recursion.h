@@ -3,7 +3,6 @@
 // Collapsed regions are laid out again, each on a circle of its own.
 #pragma once
 
-#include "floater/collapsed_regions.h"
 #include "floater/floater_method.h"
 
 #include <vector>

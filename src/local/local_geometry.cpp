@@ -10,15 +10,13 @@
 
 namespace pcl::floater {
 namespace {
-// Calls make (beyond) with the data for stars beyond the neighbours, or nullptr.
-template <typename Make>
-Stars
-makeReaching (const LocalPlanes& planes, const StarSettings& settings, Make&& make)
+// The data for stars beyond the neighbours, if they are to reach there.
+std::optional<BeyondNeighbors>
+beyondNeighbors (const LocalPlanes& planes, const StarSettings& settings)
 {
   if (!settings.reach_beyond)
-    return make (nullptr);
-  const BeyondNeighbors beyond{*planes.tree, planes.spacing, planes.beside, settings.reach};
-  return make (&beyond);
+    return {};
+  return BeyondNeighbors{*planes.tree, planes.spacing, planes.beside, settings.reach};
 }
 } // namespace
 
@@ -52,10 +50,9 @@ Stars
 makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
              const StarSettings& settings, const RunContext& run)
 {
-  return makeReaching (planes, settings, [&] (const BeyondNeighbors* beyond) {
-    return makeStarsOf (centres, points.workingPositions (), planes.neighbors, planes.normals,
-                        settings, run, beyond);
-  });
+  const std::optional<BeyondNeighbors> beyond = beyondNeighbors (planes, settings);
+  return makeStarsOf (centres, points.workingPositions (), planes.neighbors, planes.normals,
+                      settings, run, beyond ? &*beyond : nullptr);
 }
 
 LocalGeometry
@@ -69,10 +66,11 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
   if (begun)
     geometry.stars = finishStars (positions, planes.neighbors, planes.normals, std::move (*begun),
                                   settings, run);
-  else
-    geometry.stars = makeReaching (planes, settings, [&] (const BeyondNeighbors* beyond) {
-      return makeStars (positions, planes.neighbors, planes.normals, settings, run, beyond);
-    });
+  else {
+    const std::optional<BeyondNeighbors> beyond = beyondNeighbors (planes, settings);
+    geometry.stars = makeStars (positions, planes.neighbors, planes.normals, settings, run,
+                                beyond ? &*beyond : nullptr);
+  }
   geometry.neighbors = std::move (planes.neighbors);
   geometry.spacing = std::move (planes.spacing);
   if (!settings.reach_beyond)

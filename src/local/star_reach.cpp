@@ -150,7 +150,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
   beside.reach.assign (n, 0.0F);
   CsrLists& lists = beside.neighbors;
   lists.offsets.assign (n + 1, 0);
-  std::vector<std::vector<Index>> ranges ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  RangeLists<Index> ranges (rows.size ());
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t i = first; i < last; ++i) {
@@ -184,7 +184,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
           beside.reach[p] = static_cast<float> (smaller);
         const Eigen::Vector3d offset = positions[found.front ().point] - here;
         ahead = line.direction * line.direction.dot (offset) - offset;
-        std::vector<Index>& range = ranges[first / RANGE_LENGTH];
+        std::vector<Index>& range = ranges.of (first);
         const auto begin = range.end () - static_cast<std::ptrdiff_t> (lists.offsets[p + 1]);
         std::vector<Index> listed (begin, range.end ());
         for (const Neighbor& neighbor : found)
@@ -197,9 +197,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
     }
   });
   sumRowLengths (lists.offsets);
-  lists.ids.reserve (lists.offsets[n]);
-  for (const std::vector<Index>& range : ranges)
-    lists.ids.insert (lists.ids.end (), range.begin (), range.end ());
+  lists.ids = ranges.join ();
   return beside;
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -141,75 +142,6 @@ private:
   Star star_, wider_;
 };
 
-// The stars of a range of the rows.
-struct StarRange
-{
-  std::vector<Index> ids;
-  std::vector<Eigen::Vector2d> offsets;
-  std::vector<std::pair<std::size_t, std::vector<Index>>> far; // rows with far neighbours
-
-  void append (const std::vector<PlanarNeighbor>& star, bool with_offsets)
-  {
-    for (const PlanarNeighbor& neighbor : star) {
-      ids.push_back (neighbor.point);
-      if (with_offsets)
-        offsets.push_back (neighbor.offset);
-    }
-  }
-};
-
-// Removes far neighbours across holes. Returns whether there were any.
-bool
-leaveOutAcross (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& reach,
-                double gap_ratio, Index p, std::vector<Index>& far)
-{
-  const std::size_t count = far.size ();
-  far.erase (std::remove_if (far.begin (), far.end (),
-                             [&] (Index q) {
-                               const double longest =
-                                   gap_ratio * static_cast<double> (std::max (reach[p], reach[q]));
-                               return (positions[q] - positions[p]).norm () > longest;
-                             }),
-             far.end ());
-  return far.size () < count;
-}
-
-// Makes the stars of a range again from which far neighbours were removed.
-void
-makeAgain (StarMaker& maker, const std::vector<Eigen::Vector3d>& positions, double gap_ratio,
-           std::size_t first, bool with_offsets, Stars& stars, StarRange& range)
-{
-  StarRange renewed;
-  renewed.ids.reserve (range.ids.size ());
-  Index begin = 0;
-  std::size_t row = first;
-  const auto copyUpTo = [&] (std::size_t end) {
-    for (; row < end; ++row) {
-      const Index length = stars.neighbors.offsets[row + 1];
-      renewed.ids.insert (renewed.ids.end (), range.ids.begin () + begin,
-                          range.ids.begin () + begin + length);
-      if (with_offsets)
-        renewed.offsets.insert (renewed.offsets.end (), range.offsets.begin () + begin,
-                                range.offsets.begin () + begin + length);
-      begin += length;
-    }
-  };
-  for (auto& [far_row, far] : range.far) {
-    copyUpTo (far_row);
-    const auto p = static_cast<Index> (far_row);
-    if (!leaveOutAcross (positions, stars.reach, gap_ratio, p, far))
-      continue;
-    begin += stars.neighbors.offsets[p + 1];
-    stars.open[p] = maker.make (p, far, stars.normals[p]) ? 1 : 0;
-    stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
-    renewed.append (maker.star (), with_offsets);
-    ++row;
-  }
-  copyUpTo (std::min (first + RANGE_LENGTH, stars.open.size ()));
-  range.ids.swap (renewed.ids);
-  range.offsets.swap (renewed.offsets);
-}
-
 // Maximum over each point and its nearest neighbours: in a noisy row of points, some stars are
 // narrow.
 std::vector<float>
@@ -225,113 +157,84 @@ largestAround (const std::vector<float>& values, const CsrLists& neighbors, cons
   return largest;
 }
 
-// Packs the lists of far neighbours.
-CsrLists
-packFar (std::size_t points, const Rows& rows, const std::vector<StarRange>& ranges)
+// Stars that are made in parallel, whose lists are then joined.
+class StarsInMaking
 {
-  return makeCsrLists (points, [&] (const auto& emit) {
-    for (const StarRange& range : ranges)
-      for (const auto& [row, far] : range.far)
-        for (const Index q : far)
-          emit (rows[row], q);
-  });
-}
-
-// Joins the stars of all ranges, whose lengths are in the offsets. Empties the ranges.
-void
-pack (std::vector<StarRange>& ranges, bool with_offsets, Stars& stars)
-{
-  sumRowLengths (stars.neighbors.offsets);
-  const std::size_t entries = stars.neighbors.offsets.back ();
-  stars.neighbors.ids.reserve (entries);
-  stars.offsets_in_plane.reserve (with_offsets ? entries : 0);
-  for (StarRange& range : ranges) {
-    stars.neighbors.ids.insert (stars.neighbors.ids.end (), range.ids.begin (), range.ids.end ());
-    stars.offsets_in_plane.insert (stars.offsets_in_plane.end (), range.offsets.begin (),
-                                   range.offsets.end ());
-    range = {};
+public:
+  // \param count stars are made for so many points, in their order
+  // \param size  of the arrays
+  StarsInMaking (std::size_t count, std::size_t size, bool with_offsets)
+      : ids_ (count), far_ (count), offsets_ (count), with_offsets_ (with_offsets)
+  {
+    stars.open.resize (size);
+    stars.normals.resize (size);
+    stars.neighbors.offsets.assign (size + 1, 0);
+    stars.far_neighbors.offsets.assign (size + 1, 0);
   }
-}
 
-// Stars whose lists are not yet packed.
-struct StarsInMaking
-{
-  Stars stars; // without the lists; `offsets` has the length of each row instead
-  std::vector<StarRange> ranges;
-};
-
-// Stars of some points, each by itself.
-StarsInMaking
-makeEach (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-          const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-          const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
-{
-  const std::size_t n = positions.size ();
-  StarsInMaking made;
-  Stars& stars = made.stars;
-  stars.open.resize (n);
-  stars.normals.resize (n);
-  stars.neighbors.offsets.assign (n + 1, 0);
-  stars.reach.resize (beyond != nullptr ? n : 0);
-
-  // Each range collects its stars; then they are packed.
-  made.ranges.resize ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    StarMaker maker (positions, neighbors, normals, settings, beyond);
-    StarRange& range = made.ranges[first / RANGE_LENGTH];
-    range.ids.reserve (7 * (last - first));
-    for (std::size_t row = first; row < last; ++row) {
-      const Index p = rows[row];
-      stars.open[p] = maker.make (p, stars.normals[p]) ? 1 : 0;
-      stars.neighbors.offsets[p + 1] = static_cast<Index> (maker.star ().size ());
-      range.append (maker.star (), settings.with_offsets);
-      if (beyond == nullptr)
-        continue;
-      stars.reach[p] = std::max (beyond->beside.reach[p],
-                                 static_cast<float> (reachOf (maker.star (), stars.open[p] != 0)));
-      if (!maker.added ().empty ())
-        range.far.emplace_back (row, maker.added ());
+  // Takes the star of a point, by the range that begins at `first`.
+  void add (std::size_t first, std::size_t p, const std::vector<PlanarNeighbor>& star)
+  {
+    stars.neighbors.offsets[p + 1] = static_cast<Index> (star.size ());
+    std::vector<Index>& ids = ids_.of (first);
+    if (ids.empty ())
+      ids.reserve (7 * RANGE_LENGTH); // stars have 6 neighbours on average
+    for (const PlanarNeighbor& neighbor : star) {
+      ids.push_back (neighbor.point);
+      if (with_offsets_)
+        offsets_.of (first).push_back (neighbor.offset);
     }
-  });
-  return made;
-}
+  }
 
-// Sets each reach to the maximum around, then removes far neighbours across holes.
-void
-leaveOutAcrossHoles (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                     const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-                     StarsInMaking& made, const RunContext& run)
-{
-  made.stars.reach = largestAround (made.stars.reach, neighbors, run);
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t) {
-    StarMaker maker (positions, neighbors, normals, settings, nullptr);
-    StarRange& range = made.ranges[first / RANGE_LENGTH];
-    if (!range.far.empty ())
-      makeAgain (maker, positions, settings.reach.gap_ratio, first, settings.with_offsets,
-                 made.stars, range);
-  });
-}
+  void addFar (std::size_t first, std::size_t p, const std::vector<Index>& far)
+  {
+    stars.far_neighbors.offsets[p + 1] = static_cast<Index> (far.size ());
+    far_.of (first).insert (far_.of (first).end (), far.begin (), far.end ());
+  }
 
-// Packs the lists.
-Stars
-packStars (StarsInMaking made, const Rows& rows, const StarSettings& settings)
-{
-  Stars stars = std::move (made.stars);
-  if (!stars.reach.empty ())
-    stars.far_neighbors = packFar (stars.open.size (), rows, made.ranges);
-  pack (made.ranges, settings.with_offsets, stars);
-  return stars;
-}
+  Stars end ()
+  {
+    sumRowLengths (stars.neighbors.offsets);
+    sumRowLengths (stars.far_neighbors.offsets);
+    stars.neighbors.ids = ids_.join ();
+    stars.far_neighbors.ids = far_.join ();
+    stars.offsets_in_plane = offsets_.join ();
+    return std::move (stars);
+  }
+
+  Stars stars; // its lists have the length of each row instead of the offsets
+
+private:
+  RangeLists<Index> ids_, far_;
+  RangeLists<Eigen::Vector2d> offsets_;
+  bool with_offsets_;
+};
 
 } // namespace
 
 Stars
 beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-            const StarSettings& settings, const RunContext& run, const BeyondNeighbors& beyond)
+            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
 {
-  return packStars (makeEach (positions, neighbors, normals, rows, settings, run, &beyond), rows,
-                    settings);
+  const std::size_t n = positions.size ();
+  StarsInMaking made (rows.size (), n, settings.with_offsets);
+  Stars& stars = made.stars;
+  stars.reach.resize (beyond != nullptr ? n : 0);
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+    StarMaker maker (positions, neighbors, normals, settings, beyond);
+    for (std::size_t row = first; row < last; ++row) {
+      const Index p = rows[row];
+      stars.open[p] = maker.make (p, stars.normals[p]) ? 1 : 0;
+      made.add (first, p, maker.star ());
+      if (beyond == nullptr)
+        continue;
+      stars.reach[p] = std::max (beyond->beside.reach[p],
+                                 static_cast<float> (reachOf (maker.star (), stars.open[p] != 0)));
+      made.addFar (first, p, maker.added ());
+    }
+  });
+  return made.end ();
 }
 
 Stars
@@ -340,22 +243,42 @@ finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neig
              const RunContext& run)
 {
   const std::size_t n = positions.size ();
-  StarsInMaking made;
-  made.ranges.resize ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  for (std::size_t p = 0; p < n; ++p) {
-    StarRange& range = made.ranges[p / RANGE_LENGTH];
-    const Row star = begun.neighbors.row (p), far = begun.far_neighbors.row (p);
-    range.ids.insert (range.ids.end (), star.begin (), star.end ());
-    if (far.size () > 0)
-      range.far.emplace_back (p, std::vector<Index> (far.begin (), far.end ()));
-  }
-  for (std::size_t p = n; p > 0; --p)
-    begun.neighbors.offsets[p] -= begun.neighbors.offsets[p - 1]; // back to row lengths
-  begun.neighbors.ids = {};
-  begun.far_neighbors = {};
-  made.stars = std::move (begun);
-  leaveOutAcrossHoles (positions, neighbors, normals, settings, made, run);
-  return packStars (std::move (made), Rows::all (n), settings);
+  begun.reach = largestAround (begun.reach, neighbors, run);
+  if (begun.far_neighbors.ids.empty ())
+    return begun;
+  StarsInMaking made (n, n, settings.with_offsets);
+  made.stars.open = std::move (begun.open);
+  made.stars.normals = std::move (begun.normals);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    StarMaker maker (positions, neighbors, normals, settings, nullptr);
+    std::vector<PlanarNeighbor> star;
+    std::vector<Index> far;
+    for (std::size_t p = first; p < last; ++p) {
+      const Row row = begun.neighbors.row (p), all_far = begun.far_neighbors.row (p);
+      far.clear ();
+      std::copy_if (all_far.begin (), all_far.end (), std::back_inserter (far), [&] (Index q) {
+        const auto reach = static_cast<double> (std::max (begun.reach[p], begun.reach[q]));
+        return (positions[q] - positions[p]).norm () <= settings.reach.gap_ratio * reach;
+      });
+      made.addFar (first, p, far);
+      if (far.size () < all_far.size ()) {
+        const auto point = static_cast<Index> (p);
+        made.stars.open[p] = maker.make (point, far, made.stars.normals[p]) ? 1 : 0;
+        made.add (first, p, maker.star ());
+        continue;
+      }
+      star.clear ();
+      for (std::size_t i = 0; i < row.size (); ++i)
+        star.push_back ({settings.with_offsets
+                             ? begun.offsets_in_plane[begun.neighbors.offsets[p] + i]
+                             : Eigen::Vector2d (0.0, 0.0),
+                         row[i]});
+      made.add (first, p, star);
+    }
+  });
+  made.stars.reach = std::move (begun.reach);
+  begun = {};
+  return made.end ();
 }
 
 Stars
@@ -363,11 +286,11 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
            const RunContext& run, const BeyondNeighbors* beyond)
 {
-  const Rows all = Rows::all (positions.size ());
-  StarsInMaking made = makeEach (positions, neighbors, normals, all, settings, run, beyond);
-  if (beyond != nullptr)
-    leaveOutAcrossHoles (positions, neighbors, normals, settings, made, run);
-  return packStars (std::move (made), all, settings);
+  Stars stars = beginStars (positions, neighbors, normals, Rows::all (positions.size ()), settings,
+                            run, beyond);
+  if (beyond == nullptr)
+    return stars;
+  return finishStars (positions, neighbors, normals, std::move (stars), settings, run);
 }
 
 Stars
@@ -375,22 +298,15 @@ makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3
              const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
              const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
 {
-  const std::size_t n = centres.size ();
-  Stars stars;
-  stars.open.resize (n);
-  stars.normals.resize (n);
-  stars.neighbors.offsets.assign (n + 1, 0);
-  std::vector<StarRange> ranges ((n + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+  StarsInMaking made (centres.size (), centres.size (), settings.with_offsets);
+  parallelRanges (run, centres.size (), [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, neighbors, normals, settings, beyond);
     for (std::size_t i = first; i < last; ++i) {
-      stars.open[i] = maker.make (centres[i], stars.normals[i]) ? 1 : 0;
-      stars.neighbors.offsets[i + 1] = static_cast<Index> (maker.star ().size ());
-      ranges[first / RANGE_LENGTH].append (maker.star (), settings.with_offsets);
+      made.stars.open[i] = maker.make (centres[i], made.stars.normals[i]) ? 1 : 0;
+      made.add (first, i, maker.star ());
     }
   });
-  pack (ranges, settings.with_offsets, stars);
-  return stars;
+  return made.end ();
 }
 
 bool

@@ -79,10 +79,10 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
 Stars
 beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-            const StarSettings& settings, const RunContext& run, const BeyondNeighbors& beyond);
+            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond);
 
 /// Second step, for all stars: sets each reach to the maximum around, then removes far neighbours
-/// across holes. Stars begun and finished are those of makeStars () with BeyondNeighbors.
+/// across holes. makeStars () with BeyondNeighbors is both steps.
 /// \param begun results of the first step
 Stars
 finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,

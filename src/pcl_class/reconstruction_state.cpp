@@ -30,21 +30,16 @@ std::vector<int>
 componentsOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t size)
 {
   DisjointSets sets (size);
-  std::vector<int> components (size, -1);
+  std::vector<bool> is_used (size);
   for (const std::array<std::uint32_t, 3>& t : triangles) {
     sets.join (t[0], t[1]);
     sets.join (t[0], t[2]);
     for (const std::uint32_t p : t)
-      components[p] = 0;
+      is_used[p] = true;
   }
-  // The smallest element represents a set, so it is numbered first.
-  int count = 0;
-  for (std::size_t p = 0; p < size; ++p)
-    if (components[p] == 0) {
-      const std::size_t first = sets.find (static_cast<std::uint32_t> (p));
-      components[p] = first == p ? count++ : components[first];
-    }
-  return components;
+  const std::vector<Index> numbers =
+      std::move (sets).number ([&is_used] (Index first) { return is_used[first]; });
+  return {numbers.begin (), numbers.end ()}; // NONE becomes -1
 }
 
 // Whether each of `size` points is on a boundary loop of a consistently oriented manifold.

@@ -6,18 +6,9 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 namespace pcl::floater {
-constexpr int HILBERT_BITS = 21; ///< of each coordinate
-
-/// Position of a cell along a Hilbert curve through a grid of 2^HILBERT_BITS cells a side.
-/// \param cell coordinates, of HILBERT_BITS bits
-std::uint64_t
-hilbertCode (const std::array<std::uint32_t, 3>& cell);
-
 /// Positions, and their cloud indices.
 struct CurveOrder
 {

@@ -117,29 +117,6 @@ KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighb
   visit.end ();
 }
 
-void
-KdTree::within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const
-{
-  struct Within
-  {
-    std::vector<Neighbor>& found;
-    double sqr_radius;
-
-    double reach () const { return sqr_radius; }
-    void add (const Neighbor& candidate)
-    {
-      if (candidate.sqr_distance <= sqr_radius)
-        found.push_back (candidate);
-    }
-  };
-  result.clear ();
-  if (nodes_.empty ())
-    return;
-  Within visit{result, radius * radius};
-  search (0, query, visit);
-  std::sort (result.begin (), result.end ());
-}
-
 bool
 KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
                  std::vector<Index>& points) const
@@ -163,6 +140,29 @@ KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
   Collect visit{points, radius * radius, most};
   search (0, query, visit);
   return points.size () <= most;
+}
+
+std::size_t
+KdTree::count (const Eigen::Vector3d& query, double radius) const
+{
+  const double sqr_radius = radius * radius;
+  std::size_t found = 0;
+  std::vector<Index> waiting (nodes_.empty () ? 0 : 1, 0);
+  while (!waiting.empty ()) {
+    const Index node = waiting.back ();
+    waiting.pop_back ();
+    const Node& here = nodes_[node];
+    const Eigen::Vector3d farthest =
+        (query - here.box.min ()).cwiseAbs ().cwiseMax ((query - here.box.max ()).cwiseAbs ());
+    if (farthest.squaredNorm () <= sqr_radius)
+      found += here.last - here.first;
+    else if (here.right == NONE)
+      for (Index i = here.first; i < here.last; ++i)
+        found += (items_[i].position - query).squaredNorm () <= sqr_radius ? 1 : 0;
+    else if (here.sqrDistance (query) <= sqr_radius)
+      waiting.insert (waiting.end (), {node + 1, here.right});
+  }
+  return found;
 }
 
 namespace {

@@ -80,20 +80,32 @@ public:
   /// result. O(k + log n) on clouds of bounded density.
   void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
 
-  /// All points within `radius` of `query` (that distance included), nearest first.
-  void within (const Eigen::Vector3d& query, double radius, std::vector<Neighbor>& result) const;
-
   /// All points within `radius` of `query` (that distance included), unordered.
   /// \return false if there are more than `most`; then some are missing
   bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
                 std::vector<Index>& points) const;
 
+  /// Number of points within `radius` of `query` (that distance included). Boxes inside of that ball
+  /// count as a whole.
+  std::size_t count (const Eigen::Vector3d& query, double radius) const;
+
+  /// The point at a place of the tree's own order.
+  Index pointAt (Index place) const { return items_[place].point; }
+
+  /// Skips no box.
+  struct NoSkip
+  {
+    bool operator() (Index, Index) const { return false; }
+  };
+
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. Points behind the plane through `query` with the normal `ahead` may be skipped,
   /// and accept must reject them; a zero normal means no plane. Overwrites the result.
-  template <typename Accept>
+  /// \param skip (first, last) is true for places whose points accept would reject
+  template <typename Accept, typename Skip = NoSkip>
   void nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
-                  std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const;
+                  std::size_t k, Accept&& accept, std::vector<Neighbor>& result,
+                  const Skip& skip = {}) const;
 
 private:
   struct Node
@@ -156,9 +168,9 @@ private:
 
   template <typename Visit>
   void search (Index node, const Eigen::Vector3d& query, Visit& visit) const;
-  template <typename Accept>
+  template <typename Accept, typename Skip>
   void searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
-                 Accept& accept, Nearest& nearest) const;
+                 Accept& accept, const Skip& skip, Nearest& nearest) const;
   void build (Index first, Index last, const RunContext& run, PointOrder order,
               std::vector<Node>& nodes);
 
@@ -167,26 +179,27 @@ private:
   SearchWatch* watch_ = nullptr;
 };
 
-template <typename Accept>
+template <typename Accept, typename Skip>
 void
 KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
-                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const
+                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result,
+                   const Skip& skip) const
 {
   result.clear ();
   if (nodes_.empty () || k == 0)
     return;
   Nearest nearest (result, std::min (k, items_.size ()), radius * radius);
-  searchIf (0, query, ahead, accept, nearest);
+  searchIf (0, query, ahead, accept, skip, nearest);
   nearest.end ();
 }
 
-template <typename Accept>
+template <typename Accept, typename Skip>
 void
 KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
-                  Accept& accept, Nearest& nearest) const
+                  Accept& accept, const Skip& skip, Nearest& nearest) const
 {
   const Node& here = nodes_[node];
-  if (here.box.squaredExteriorDistance (query) > nearest.reach ())
+  if (here.box.squaredExteriorDistance (query) > nearest.reach () || skip (here.first, here.last))
     return;
   double farthest_ahead = 0.0;
   for (int i = 0; i < 3; ++i)
@@ -205,8 +218,8 @@ KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3
   const Index left = node + 1;
   const bool left_first =
       nodes_[left].sqrDistance (query) <= nodes_[here.right].sqrDistance (query);
-  searchIf (left_first ? left : here.right, query, ahead, accept, nearest);
-  searchIf (left_first ? here.right : left, query, ahead, accept, nearest);
+  searchIf (left_first ? left : here.right, query, ahead, accept, skip, nearest);
+  searchIf (left_first ? here.right : left, query, ahead, accept, skip, nearest);
 }
 
 /// The k nearest points to points that mostly are near their predecessors, as along a space-filling

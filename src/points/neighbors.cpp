@@ -212,11 +212,10 @@ searchBalls (const Rows& rows, double radius, Search& search, const RunContext& 
 {
   CsrLists lists;
   lists.offsets.assign (rows.size () + 1, 0);
-  // Each range collects its rows; then they are packed.
-  std::vector<std::vector<Index>> ranges ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  RangeLists<Index> ranges (rows.size ());
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
-    std::vector<Index>& range = ranges[first / RANGE_LENGTH];
+    std::vector<Index>& range = ranges.of (first);
     for (std::size_t i = first; i < last; ++i) {
       search.nearest (rows[i], SPACING_NEIGHBORS, found);
       search.within (rows[i], ballRadius (found, radius), found);
@@ -226,17 +225,10 @@ searchBalls (const Rows& rows, double radius, Search& search, const RunContext& 
       lists.offsets[i + 1] = static_cast<Index> (count);
     }
   });
-  std::size_t entries = 0;
-  for (const std::vector<Index>& range : ranges)
-    entries += range.size ();
-  requireCountable (entries, NONE - 1, "the table of neighbours in balls",
+  requireCountable (ranges.size (), NONE - 1, "the table of neighbours in balls",
                     "use fewer points or a smaller radius");
   sumRowLengths (lists.offsets);
-  lists.ids.reserve (entries);
-  for (std::vector<Index>& range : ranges) {
-    lists.ids.insert (lists.ids.end (), range.begin (), range.end ());
-    std::vector<Index> ().swap (range);
-  }
+  lists.ids = ranges.join ();
   return lists;
 }
 

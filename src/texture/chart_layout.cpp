@@ -3,12 +3,250 @@
 #include "texture/chart_layout.h"
 
 #include "core/geometry.h"
-#include "texture/convex_layout.h"
+#include "core/order_statistics.h"
+#include "floater/domain.h"
+#include "floater/solvers/solver.h"
 #include "texture/stretch.h"
 
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+constexpr int MOST_STEPS = 10;          // of the relaxation; later ones hardly lower the stretch
+constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
+constexpr double SMALLEST_TANGENT = 1e-6, LARGEST_TANGENT = 1e6; // of half an angle
+
+// tan (angle / 2) at corner i of a triangle.
+double
+halfTangent (const std::array<Eigen::Vector3d, 3>& place, std::size_t i)
+{
+  const Eigen::Vector3d a = place[(i + 1) % 3] - place[i], b = place[(i + 2) % 3] - place[i];
+  const double sine = a.cross (b).norm (), cosine = a.dot (b), lengths = a.norm () * b.norm ();
+  const double tangent = cosine >= 0.0 ? sine / (lengths + cosine) : (lengths - cosine) / sine;
+  // NaN: two equal corners
+  return tangent > SMALLEST_TANGENT ? std::min (tangent, LARGEST_TANGENT) : SMALLEST_TANGENT;
+}
+
+// Neighbours of the inner vertices and their mean value weights.
+struct Weights
+{
+  CsrLists neighbors;
+  std::vector<double> values;
+};
+
+Weights
+meanValueWeights (const ChartMesh& chart)
+{
+  const TriangleMesh& mesh = chart.mesh;
+  std::vector<std::uint8_t> is_inner (chart.positions.size (), 1);
+  for (const Index p : chart.loop)
+    is_inner[p] = 0;
+  // At an inner vertex, each edge ends one triangle and begins another.
+  Weights weights;
+  weights.neighbors = makeCsrLists (chart.positions.size (), [&] (const auto& emit) {
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (is_inner[mesh.from ({t, side})] != 0)
+          emit (mesh.from ({t, side}), 3 * t + side);
+  });
+  const auto tangentAt = [&] (Index t, std::uint8_t corner) {
+    const Triangle& c = mesh.triangles[t];
+    return halfTangent ({chart.positions[c[0]], chart.positions[c[1]], chart.positions[c[2]]},
+                        corner);
+  };
+  weights.values.reserve (weights.neighbors.ids.size ());
+  for (Index& id : weights.neighbors.ids) {
+    const MeshEdge edge{id / 3, static_cast<std::uint8_t> (id % 3)}, mate = mesh.mate (edge);
+    const double length =
+        (chart.positions[mesh.to (edge)] - chart.positions[mesh.from (edge)]).norm ();
+    const double sum = tangentAt (edge.triangle, TriangleMesh::next (edge.side)) +
+                       tangentAt (mate.triangle, TriangleMesh::previous (mate.side));
+    weights.values.push_back (length > 0.0 ? sum / length : 1.0);
+    id = mesh.to (edge);
+  }
+  return weights;
+}
+
+// Stretch around each vertex, and in total.
+struct LocalStretch
+{
+  std::vector<double> of_vertex;
+  double mean =
+      std::numeric_limits<double>::infinity (); // also if there is no layout, or a triangle
+                                                // is flipped
+};
+
+LocalStretch
+measureLocally (const ChartMesh& chart, const RestShapes& rest,
+                const std::vector<Eigen::Vector2d>& uv)
+{
+  LocalStretch result;
+  if (uv.empty ())
+    return result;
+  std::vector<double> squares (uv.size (), 0.0), areas (uv.size (), 0.0);
+  double sum = 0.0, plane_area = 0.0;
+  for (std::size_t t = 0; t < chart.mesh.triangles.size (); ++t) {
+    const Triangle& c = chart.mesh.triangles[t];
+    Eigen::Matrix2d edges;
+    edges << uv[c[1]] - uv[c[0]], uv[c[2]] - uv[c[0]];
+    const double determinant = edges.determinant ();
+    if (!(determinant > 0.0))
+      return result;
+    const RestShape& shape = rest.shapes[t];
+    // For the inverse of the map from the shape: as many squares, over the determinant.
+    const double inverse_determinant = 1.0 / (determinant * shape.to_unit.determinant ());
+    const double square = 0.5 * shape.area * (edges * shape.to_unit).squaredNorm () *
+                          inverse_determinant * inverse_determinant;
+    sum += square;
+    plane_area += 0.5 * determinant;
+    for (const Index p : c) {
+      squares[p] += square;
+      areas[p] += shape.area;
+    }
+  }
+  result.mean = std::sqrt (sum * plane_area);
+  result.of_vertex.resize (uv.size ());
+  for (std::size_t p = 0; p < uv.size (); ++p)
+    result.of_vertex[p] = std::sqrt (squares[p] / areas[p]);
+  return result;
+}
+
+std::vector<Eigen::Vector2d>
+solveWeights (const ChartMesh& chart, const Weights& weights,
+              const std::vector<Eigen::Vector2d>& loop_uv, const RunContext& run)
+{
+  const std::vector<std::uint8_t> all (chart.positions.size (), 1);
+  const LinearSystem system =
+      assembleSystem (weights.neighbors, weights.values, chart.loop, loop_uv, all);
+  const Solution solution = solve (system, {}, run);
+  if (solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
+    throw std::bad_alloc ();
+  if (solution.outcome != Solution::Outcome::OK)
+    return {};
+  std::vector<Eigen::Vector2d> uv (chart.positions.size ());
+  for (std::size_t i = 0; i < chart.loop.size (); ++i)
+    uv[chart.loop[i]] = loop_uv[i];
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    uv[system.point_of_unknown[i]] = solution.uv.row (static_cast<Eigen::Index> (i));
+  return uv;
+}
+
+} // namespace
+
+std::vector<Eigen::Vector2d>
+layOutOnCircle (const ChartMesh& chart, const RestShapes& rest, const RunContext& run)
+{
+  const std::vector<Eigen::Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
+  Weights weights = meanValueWeights (chart);
+  std::vector<Eigen::Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
+  LocalStretch stretch = measureLocally (chart, rest, uv);
+  if (std::isinf (stretch.mean)) {
+    // Weights of long triangles are so different that rounding merges their ends.
+    std::fill (weights.values.begin (), weights.values.end (), 1.0);
+    uv = solveWeights (chart, weights, loop_uv, run);
+    stretch = measureLocally (chart, rest, uv);
+    if (std::isinf (stretch.mean))
+      return {};
+  }
+  if (chart.loop.size () == chart.positions.size ())
+    return uv; // no inner vertex
+  bool goes_on = true;
+  for (int step = 0; step < MOST_STEPS && goes_on; ++step) {
+    for (std::size_t i = 0; i < weights.values.size (); ++i)
+      weights.values[i] /= stretch.of_vertex[weights.neighbors.ids[i]];
+    std::vector<Eigen::Vector2d> next = solveWeights (chart, weights, loop_uv, run);
+    LocalStretch next_stretch = measureLocally (chart, rest, next);
+    if (!(next_stretch.mean < stretch.mean))
+      break;
+    goes_on = next_stretch.mean < LEAST_PROGRESS * stretch.mean;
+    uv = std::move (next);
+    stretch = std::move (next_stretch);
+  }
+  return uv;
+}
+
+bool
+untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+{
+  constexpr int ROUNDS_AT_MOST = 60; // remaining defects are wider than 30 triangles and no details
+  // Moved are vertices of flipped triangles and some rings around them: one, plus one after this many
+  // rounds. A patch by means of neighbours is upright if the polygon around it is convex (Tutte 1963);
+  // a wider patch mostly has a better one.
+  constexpr int ROUNDS_PER_RING = 4;
+  constexpr int SWEEPS = 4;            // over these vertices in a round
+  constexpr double MOST_FLIPPED = 0.2; // share of flipped triangles; above, the whole is flipped
+  constexpr double EAR_HEIGHT = 0.2; // of a triangle with two edges on the boundary, over its base
+  const std::vector<Triangle>& triangles = chart.mesh.triangles;
+  // Per vertex: where it is a corner, as 3 triangle + corner.
+  const CsrLists corners = makeCsrLists (uv.size (), [&triangles] (const auto& emit) {
+    for (Index t = 0; t < triangles.size (); ++t)
+      for (std::uint8_t i = 0; i < 3; ++i)
+        emit (triangles[t][i], 3 * t + i);
+  });
+  std::vector<Index> before (uv.size (), NONE), after (uv.size (), NONE); // along the boundary
+  for (std::size_t i = 0; i < chart.loop.size (); ++i) {
+    const Index p = chart.loop[i], next = chart.loop[i + 1 == chart.loop.size () ? 0 : i + 1];
+    after[p] = next;
+    before[next] = p;
+  }
+  // The mean of the neighbours; on the boundary, of those along it.
+  const auto targetOf = [&] (Index p) -> Eigen::Vector2d {
+    const Row row = corners.row (p);
+    if (before[p] == NONE) {
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero ();
+      for (const Index id : row)
+        sum += uv[triangles[id / 3][(id + 1) % 3]];
+      return sum / static_cast<double> (row.size ());
+    }
+    const Eigen::Vector2d middle = 0.5 * (uv[before[p]] + uv[after[p]]);
+    if (row.size () > 1)
+      return middle;
+    // A vertex of one triangle lies to the right of the line from the vertex before to the one
+    // after it.
+    const Eigen::Vector2d way = uv[after[p]] - uv[before[p]];
+    return middle + EAR_HEIGHT * Eigen::Vector2d (way.y (), -way.x ());
+  };
+  std::vector<Index> moved;
+  for (int round = 0; round < ROUNDS_AT_MOST; ++round) {
+    run.poll ();
+    std::vector<Index> bad; // vertices of flipped triangles, then those around
+    std::vector<std::uint8_t> is_bad (uv.size (), 0);
+    const auto add = [&] (const Triangle& t) {
+      for (const Index p : t)
+        if (is_bad[p] == 0) {
+          is_bad[p] = 1;
+          bad.push_back (p);
+        }
+    };
+    std::size_t flipped = 0;
+    for (const Triangle& t : triangles)
+      if (!(cross (uv[t[1]] - uv[t[0]], uv[t[2]] - uv[t[0]]) > 0.0)) {
+        ++flipped;
+        add (t);
+      }
+    if (flipped == 0)
+      return true;
+    if (static_cast<double> (flipped) > MOST_FLIPPED * static_cast<double> (triangles.size ()))
+      return false;
+    for (int ring = 0; ring < 1 + round / ROUNDS_PER_RING; ++ring)
+      for (std::size_t i = 0, size = bad.size (); i < size; ++i)
+        for (const Index id : corners.row (bad[i]))
+          add (triangles[id / 3]);
+    moved.insert (moved.end (), bad.begin (), bad.end ());
+    sortUnique (moved);
+    for (int sweep = 0; sweep < SWEEPS; ++sweep)
+      for (const Index p : moved)
+        uv[p] = targetOf (p);
+  }
+  return false;
+}
+
 namespace {
 bool
 isLayout (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)

@@ -250,7 +250,7 @@ starsStep (const StepContext& context, std::size_t block)
         const Rows rows =
             is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
         const Stars begun =
-            beginStars (positions, neighbors, normals, rows, settings, context.run, beyond);
+            beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
         Stars made;
         for (std::size_t i = 0; i < rows.size (); ++i)
           appendStar (begun, rows[i], made);

@@ -5,8 +5,6 @@
 #include "core/disjoint_sets.h"
 #include "points/kd_tree.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,123 +25,41 @@ struct Bridge
   }
 };
 
-// A kd-tree that finds the nearest point of another component. Nodes with a single component are
-// labelled with it; queries from there skip them.
-class ComponentTree
-{
-public:
-  explicit ComponentTree (const std::vector<Eigen::Vector3d>& points)
-      : points_ (points), ids_ (points.size ())
-  {
-    std::iota (ids_.begin (), ids_.end (), Index{0});
-    build (0, static_cast<Index> (ids_.size ()));
-  }
-
-  void setLabels (std::vector<Index> labels)
-  {
-    labels_ = std::move (labels);
-    for (std::size_t n = nodes_.size (); n-- > 0;) { // children follow their parent
-      Node& node = nodes_[n];
-      node.label = node.right == NONE ? labels_[ids_[node.first]] : nodes_[n + 1].label;
-      const bool uniform = node.right == NONE
-                               ? std::all_of (ids_.begin () + node.first, ids_.begin () + node.last,
-                                              [&] (Index p) { return labels_[p] == node.label; })
-                               : node.label == nodes_[node.right].label;
-      if (!uniform)
-        node.label = NONE;
-    }
-  }
-
-  // Replaces `shortest` if there is a shorter bridge from p.
-  void shorten (Bridge& shortest, Index p) const { search (0, p, shortest); }
-
-private:
-  static constexpr Index LEAF_SIZE = 8;
-
-  struct Node
-  {
-    Eigen::AlignedBox3d box;
-    Index first, last;
-    Index right; // the left child is the next node; NONE at a leaf
-    Index label; // of the component; NONE if there are several
-  };
-
-  void build (Index first, Index last)
-  {
-    Eigen::AlignedBox3d box;
-    for (Index i = first; i < last; ++i)
-      box.extend (points_[ids_[i]]);
-    const std::size_t self = nodes_.size ();
-    nodes_.push_back ({box, first, last, NONE, NONE});
-    if (last - first <= LEAF_SIZE)
-      return;
-    Eigen::Index axis = 0;
-    box.sizes ().maxCoeff (&axis);
-    const Index middle = first + (last - first) / 2;
-    std::nth_element (
-        ids_.begin () + first, ids_.begin () + middle, ids_.begin () + last,
-        [this, axis] (Index p, Index q) { return points_[p][axis] < points_[q][axis]; });
-    build (first, middle);
-    nodes_[self].right = static_cast<Index> (nodes_.size ());
-    build (middle, last);
-  }
-
-  double sqrDistance (Index node, Index p) const
-  {
-    return nodes_[node].box.squaredExteriorDistance (points_[p]);
-  }
-
-  void search (Index n, Index p, Bridge& shortest) const
-  {
-    const Node& node = nodes_[n];
-    if (node.label == labels_[p] || sqrDistance (n, p) > shortest.sqr_length)
-      return;
-    if (node.right == NONE) {
-      for (Index i = node.first; i < node.last; ++i) {
-        const Index q = ids_[i];
-        if (labels_[q] != labels_[p])
-          shortest = std::min (shortest, Bridge{(points_[p] - points_[q]).squaredNorm (),
-                                                std::min (p, q), std::max (p, q)});
-      }
-      return;
-    }
-    Index near = n + 1;
-    Index far = node.right;
-    if (sqrDistance (far, p) < sqrDistance (near, p))
-      std::swap (near, far);
-    search (near, p, shortest);
-    search (far, p, shortest);
-  }
-
-  const std::vector<Eigen::Vector3d>& points_;
-  std::vector<Index> ids_; // in the order of the leaves
-  std::vector<Node> nodes_;
-  std::vector<Index> labels_;
-};
-
 // Appends bridges until the graph is connected: in each round the shortest bridge from every
 // component (Boruvka's algorithm).
 void
-connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points, Index rank,
-         const RunContext& run)
+connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points,
+         const KdTree& tree, Index rank, const RunContext& run)
 {
-  DisjointSets sets (points.size ());
-  std::size_t components = points.size ();
+  constexpr double ROUNDING = 1.0 + 1e-15; // squaring a square root may round down
+  const std::size_t n = points.size ();
+  DisjointSets sets (n);
+  std::size_t components = n;
   for (const NeighborEdge& edge : edges)
     components -= sets.join (edge.a, edge.b) ? 1 : 0;
-  if (components < 2)
-    return;
-  ComponentTree tree (points);
   ProgressLoop progress (run);
   while (components > 1) {
-    std::vector<Index> labels (points.size ());
-    for (Index p = 0; p < points.size (); ++p)
+    std::vector<Index> labels (n);
+    for (Index p = 0; p < n; ++p)
       labels[p] = sets.find (p);
-    tree.setLabels (labels);
-    std::vector<Bridge> shortest (points.size ()); // by the label of the component
-    for (Index p = 0; p < points.size (); ++p) {
+    // In the order of the tree: where the run of points of one component begins.
+    std::vector<Index> begin (n, 0);
+    for (Index i = 1; i < n; ++i)
+      begin[i] = labels[tree.pointAt (i)] == labels[tree.pointAt (i - 1)] ? begin[i - 1] : i;
+    std::vector<Bridge> shortest (n); // by the label of the component
+    std::vector<Neighbor> found;
+    for (Index p = 0; p < n; ++p) {
       progress.next ();
-      tree.shorten (shortest[labels[p]], p);
+      Bridge& bridge = shortest[labels[p]];
+      tree.nearestIf (
+          points[p], Eigen::Vector3d::Zero (), ROUNDING * std::sqrt (bridge.sqr_length), 1,
+          [&] (const Neighbor& other, const auto&) { return labels[other.point] != labels[p]; },
+          found,
+          [&] (Index first, Index last) {
+            return begin[last - 1] <= first && labels[tree.pointAt (first)] == labels[p];
+          });
+      for (const auto& [sqr_length, q] : found)
+        bridge = std::min (bridge, Bridge{sqr_length, std::min (p, q), std::max (p, q)});
     }
     for (const Bridge& bridge : shortest)
       if (bridge.a != NONE && sets.join (bridge.a, bridge.b)) {
@@ -171,7 +87,7 @@ neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunCon
         edges.push_back ({std::min (p, neighbor.point), std::max (p, neighbor.point), rank++,
                           std::sqrt (neighbor.sqr_distance)});
   }
-  connect (edges, points, k, run);
+  connect (edges, points, tree, k, run);
   std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
     return std::tie (e.a, e.b, e.rank) < std::tie (f.a, f.b, f.rank);
   });
@@ -205,90 +121,17 @@ nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k)
 }
 
 namespace {
-// A tree that counts points in spheres. A sphere of the growing distance contains a large piece of
-// a dense boundary, so nodes inside of it are counted as a whole.
-class SphereCounter
-{
-public:
-  explicit SphereCounter (const std::vector<Eigen::Vector3d>& points) : points_ (points)
-  {
-    if (!points_.empty ())
-      build (0, static_cast<Index> (points_.size ()));
-  }
-
-  std::size_t count (const Eigen::Vector3d& centre, double sqr_radius) const
-  {
-    std::size_t found = 0;
-    for (std::size_t n = 0; n < nodes_.size ();) {
-      const Node& node = nodes_[n];
-      const Eigen::Vector3d below = node.lower - centre;
-      const Eigen::Vector3d above = centre - node.upper;
-      const Eigen::Vector3d nearest = below.cwiseMax (above).cwiseMax (0.0);
-      const Eigen::Vector3d farthest = below.cwiseAbs ().cwiseMax (above.cwiseAbs ());
-      const bool outside = nearest.squaredNorm () > sqr_radius;
-      const bool inside = farthest.squaredNorm () <= sqr_radius;
-      if (inside)
-        found += node.last - node.first;
-      else if (!outside && node.leaf)
-        for (Index i = node.first; i < node.last; ++i)
-          found += (points_[i] - centre).squaredNorm () <= sqr_radius ? 1 : 0;
-      n = inside || outside || node.leaf ? node.skip : n + 1;
-    }
-    return found;
-  }
-
-private:
-  static constexpr Index LEAF_SIZE = 8;
-
-  // Nodes are in depth-first order.
-  struct Node
-  {
-    Eigen::Vector3d lower, upper;
-    Index first, last;
-    std::size_t skip; // the next node that is not below this one
-    bool leaf;
-  };
-
-  void build (Index first, Index last)
-  {
-    Node node{points_[first], points_[first], first, last, 0, last - first <= LEAF_SIZE};
-    for (Index i = first; i < last; ++i) {
-      node.lower = node.lower.cwiseMin (points_[i]);
-      node.upper = node.upper.cwiseMax (points_[i]);
-    }
-    const std::size_t self = nodes_.size ();
-    nodes_.push_back (node);
-    if (!node.leaf) {
-      Eigen::Index axis = 0;
-      (node.upper - node.lower).maxCoeff (&axis);
-      const Index middle = first + (last - first) / 2;
-      std::nth_element (points_.begin () + first, points_.begin () + middle,
-                        points_.begin () + last,
-                        [axis] (const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-                          return a[axis] < b[axis];
-                        });
-      build (first, middle);
-      build (middle, last);
-    }
-    nodes_[self].skip = nodes_.size ();
-  }
-
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<Node> nodes_;
-};
-
 // Indices of the points in the list, by descending number of points around; ties in the order of
 // the list.
 std::vector<Index>
-byDescendingDensity (const std::vector<Eigen::Vector3d>& points, double radius,
+byDescendingDensity (const std::vector<Eigen::Vector3d>& points, const KdTree& tree, double radius,
                      const RunContext& run)
 {
   ProgressLoop progress (run, points.size ());
-  const SphereCounter counter (points);
   std::vector<std::size_t> density (points.size ());
   for (std::size_t i = 0; i < points.size (); ++i) {
     progress.next ();
-    density[i] = counter.count (points[i], radius * radius);
+    density[i] = tree.count (points[i], radius);
   }
   std::vector<Index> order (points.size ());
   std::iota (order.begin (), order.end (), Index{0});
@@ -314,7 +157,7 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
   std::vector<std::uint8_t> taken (points.size (), 0);
   std::vector<Neighbor> nearest;
   std::vector<std::vector<Index>> clusters;
-  const std::vector<Index> starts = byDescendingDensity (points, tolerance, run);
+  const std::vector<Index> starts = byDescendingDensity (points, tree, tolerance, run);
   ProgressLoop progress (run, points.size ());
   for (const Index start : starts) {
     if (taken[start])

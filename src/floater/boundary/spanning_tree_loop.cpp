@@ -109,8 +109,9 @@ joinCandidates (const Positions& positions, const std::vector<float>& spacing,
   return edges;
 }
 
-// A minimum spanning forest. Every node stores its ancestors 1, 2, 4, ... steps up, so the length
-// of the path between two nodes takes O(log nodes).
+// A minimum spanning forest. Every node stores its parent and an ancestor farther up, so the length
+// of the path between two nodes takes O(log nodes) (Myers 1983, "An applicative random-access
+// stack").
 class SpanningForest
 {
 public:
@@ -119,7 +120,7 @@ public:
   // \param outside gets the edges that are not in the forest
   SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges,
                   std::vector<CandidateEdge>& outside, const RunContext& run)
-      : root_distance_ (nodes, 0.0), depth_ (nodes, 0), tree_ (nodes, NONE)
+      : root_distance_ (nodes, 0.0), depth_ (nodes, 0), parent_ (nodes, NONE), jump_ (nodes, NONE)
   {
     DisjointSets trees (nodes);
     Adjacency adjacent (nodes);
@@ -133,18 +134,9 @@ public:
       adjacent[edge.a].emplace_back (edge.b, edge.length);
       adjacent[edge.b].emplace_back (edge.a, edge.length);
     }
-    ancestors_.emplace_back (nodes, NONE);
     for (Index root = 0; root < nodes; ++root)
-      if (tree_[root] == NONE)
+      if (parent_[root] == NONE)
         growTree (root, adjacent, progress);
-    const Index deepest = nodes == 0 ? 0 : *std::max_element (depth_.begin (), depth_.end ());
-    for (Index step = 1; step <= deepest; step *= 2) {
-      const std::vector<Index>& half = ancestors_.back ();
-      std::vector<Index> whole (nodes);
-      for (Index x = 0; x < nodes; ++x)
-        whole[x] = half[half[x]];
-      ancestors_.push_back (std::move (whole));
-    }
   }
 
   double pathLength (Index a, Index b) const
@@ -158,9 +150,9 @@ public:
   {
     const Index top = lowestCommonAncestor (a, b);
     std::vector<Index> up, down;
-    for (Index x = a; x != top; x = ancestors_[0][x])
+    for (Index x = a; x != top; x = parent_[x])
       up.push_back (x);
-    for (Index x = b; x != top; x = ancestors_[0][x])
+    for (Index x = b; x != top; x = parent_[x])
       down.push_back (x);
     up.push_back (top);
     up.insert (up.end (), down.rbegin (), down.rend ());
@@ -174,17 +166,18 @@ private:
   void growTree (Index root, const Adjacency& adjacent, ProgressLoop& progress)
   {
     std::vector<Index> stack{root};
-    tree_[root] = root;
-    ancestors_[0][root] = root;
+    parent_[root] = jump_[root] = root;
     while (!stack.empty ()) {
       progress.next ();
       const Index x = stack.back ();
       stack.pop_back ();
       for (const auto& [y, length] : adjacent[x]) {
-        if (tree_[y] != NONE)
+        if (parent_[y] != NONE)
           continue;
-        tree_[y] = root;
-        ancestors_[0][y] = x;
+        parent_[y] = x;
+        // Two jumps of equal length become one.
+        const Index up = jump_[x];
+        jump_[y] = depth_[x] - depth_[up] == depth_[up] - depth_[jump_[up]] ? jump_[up] : x;
         depth_[y] = depth_[x] + 1;
         root_distance_[y] = root_distance_[x] + length;
         stack.push_back (y);
@@ -197,21 +190,19 @@ private:
   {
     if (depth_[a] < depth_[b])
       std::swap (a, b);
-    for (std::size_t level = ancestors_.size (); level-- > 0;)
-      if (depth_[a] - depth_[b] >= (Index{1} << level))
-        a = ancestors_[level][a];
-    for (std::size_t level = ancestors_.size (); level-- > 0 && a != b;)
-      if (ancestors_[level][a] != ancestors_[level][b]) {
-        a = ancestors_[level][a];
-        b = ancestors_[level][b];
-      }
-    return a == b ? a : ancestors_[0][a];
+    while (depth_[a] > depth_[b])
+      a = depth_[jump_[a]] >= depth_[b] ? jump_[a] : parent_[a];
+    while (a != b) {
+      const std::vector<Index>& up = jump_[a] != jump_[b] ? jump_ : parent_;
+      a = up[a];
+      b = up[b];
+    }
+    return a;
   }
 
-  std::vector<std::vector<Index>> ancestors_; // [l][x]: 2^l steps up from x; the root's is the root
-  std::vector<double> root_distance_;         // along the tree
-  std::vector<Index> depth_;                  // edges to the root
-  std::vector<Index> tree_;                   // the root of each node's tree
+  std::vector<double> root_distance_; // along the tree
+  std::vector<Index> depth_;          // edges to the root
+  std::vector<Index> parent_, jump_;  // of each node; a root's are itself
 };
 
 double

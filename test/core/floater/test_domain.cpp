@@ -4,7 +4,6 @@
 #include "floater/domain.h"
 
 #include "core/geometry.h"
-#include "floater/own_shape.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>

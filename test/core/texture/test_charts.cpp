@@ -6,7 +6,6 @@
 #include "mesh/known_meshes.h"
 #include "texture/chart_layout.h"
 #include "texture/charts.h"
-#include "texture/convex_layout.h"
 #include "texture/smoothing.h"
 #include "texture/stretch.h"
 
