@@ -148,7 +148,7 @@ private:
         shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
     std::size_t free_rows = 0; // the last tested ones
     for (std::size_t r = 0; free_rows < rows && place.x + shape.width <= width_;
-         r = r + 1 < rows ? r + 1 : 0)
+         r = r + 1 < rows ? r + 1 : 0, ++work_)
       free_rows = moveInRow (rows_[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
     return place.x + shape.width <= width_;
   }
