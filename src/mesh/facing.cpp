@@ -44,8 +44,8 @@ class PartialSums
 public:
   PartialSums () = default;
   PartialSums (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, std::size_t first,
-               std::size_t last)
+               const MeshComponents& found, const FacingHints& hints, double room_sine,
+               std::size_t first, std::size_t last)
   {
     std::unordered_map<Index, std::size_t> places; // of components in parts_
     Index current = NONE;                          // component
@@ -59,7 +59,7 @@ public:
           parts_.push_back ({current, {{}, positions[corners[0]]}});
       }
       ComponentSum& part = parts_[place].second;
-      add (mesh.neighbors[t], corners, positions, hints, part.origin, part.sum);
+      add (mesh.neighbors[t], corners, positions, hints, room_sine, part.origin, part.sum);
     }
   }
 
@@ -73,14 +73,19 @@ public:
 private:
   static void add (const std::array<Index, 3>& neighbors, const Triangle& corners,
                    const std::vector<Eigen::Vector3d>& positions, const FacingHints& hints,
-                   const Eigen::Vector3d& origin, FacingSums& sum)
+                   double room_sine, const Eigen::Vector3d& origin, FacingSums& sum)
   {
     ++sum.triangles;
     const Eigen::Vector3d area_vector = areaVectorOf (corners, positions);
     const double area = area_vector.norm ();
     sum.area_vector += area_vector;
     sum.area += area;
-    sum.from_above += std::abs (area_vector.z ());
+    const double from_above = std::abs (area_vector.z ());
+    sum.from_above += from_above;
+    if (from_above <= room_sine * area)
+      sum.upright += area;
+    else if (area_vector.head<2> ().norm () <= room_sine * area)
+      sum.level += area;
     sum.volume += (positions[corners[0]] - origin).dot (area_vector);
     for (std::size_t i = 0; i < 3; ++i) {
       sum.at = std::min (sum.at, corners[i]);
@@ -126,9 +131,10 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                const RunContext& run)
 {
   const std::size_t triangles = mesh.triangles.size ();
+  const double room_sine = std::sin (limits.room_angle * DEGREE);
   std::vector<PartialSums> parts ((triangles + SUMMED - 1) / SUMMED);
   parallelTasks (run, parts.size (), [&] (std::size_t i) {
-    parts[i] = PartialSums (mesh, positions, found, hints, i * SUMMED,
+    parts[i] = PartialSums (mesh, positions, found, hints, room_sine, i * SUMMED,
                             std::min (triangles, (i + 1) * SUMMED));
   });
   std::vector<ComponentSum> components (found.count);
@@ -153,7 +159,7 @@ findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 {
   if (hints.wanted == Facing::UP || hints.wanted == Facing::VIEWPOINT)
     return {};
-  if (hints.faces_sensor && hints.wanted != Facing::OUTWARDS)
+  if (hints.faces_sensor && !hints.wantsASide ())
     return {};
   if (!hints.is_one_view && !hints.faces_sensor)
     return findContinuations (mesh, found, positions, limits.continuations, run);
