@@ -197,7 +197,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
     if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
-            points, planes.neighbors, samples, false, search, limits.view.evidence, run)))
+            points, planes.neighbors, samples, false, true, search, limits.view.evidence, run)))
       return *problem;
   }
   const bool is_measured = options.denoise || dropsScatter (options);
@@ -221,9 +221,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
       is_measured ? scatterOf (points, geometry, noise, request) : std::vector<Index>{};
   // Errors along the rays of a scan look like noise and scatter; of what is open, the sensor tells
   // the front.
-  if (may_be_seen && (noise.is_strong || !scatter.empty () || isOpen (geometry.stars)))
-    if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
-            points, geometry.neighbors, samples, true, search, limits.view.evidence, run)))
+  const bool looks_noisy = noise.is_strong || !scatter.empty ();
+  if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
+    if (const std::optional<Problem> problem =
+            reconstructFrom (findViewpoint (points, geometry.neighbors, samples, true, looks_noisy,
+                                            search, limits.view.evidence, run)))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {
     geometry = {};

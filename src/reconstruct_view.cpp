@@ -39,7 +39,8 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   std::optional<Viewpoint> found;
   for (const bool is_even : {false, true})
     if (!found)
-      found = findViewpoint (points, planes.neighbors, samples, is_even, search, evidence, run);
+      found =
+          findViewpoint (points, planes.neighbors, samples, is_even, true, search, evidence, run);
   return found;
 }
 

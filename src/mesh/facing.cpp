@@ -6,6 +6,7 @@
 #include "mesh/facing_judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -247,6 +248,51 @@ bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& comp
     bulges[o] = is_flat ? 0.0 : bulges[o] / volumes[o];
   }
   return bulges;
+}
+
+bool
+facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
+{
+  const double longest = normal.cwiseAbs ().maxCoeff ();
+  for (const int axis : {2, 1})
+    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
+      return normal[axis] < 0.0;
+  return normal.x () < 0.0;
+}
+
+bool
+isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
+{
+  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
+}
+
+double
+certaintyOf (double factor)
+{
+  const double cube = factor * factor * factor;
+  return cube / (1.0 + cube);
+}
+
+double
+certaintyOfUp (const Eigen::Vector3d& normal)
+{
+  const double squared_length = normal.squaredNorm ();
+  const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;
+  return 0.5 + 0.5 * square * square;
+}
+
+bool
+isRoom (const FacingSums& sums, const FacingLimits& limits)
+{
+  constexpr double FURNITURE = 0.3; // or walls within; generated rooms have 0.15, and fandisk, a
+                                    // part of a machine with level and upright faces, 0.57
+  // Six times the floor, which is a quarter of the doubled area, times the height.
+  const double prism = 1.5 * sums.from_above * sums.box.sizes ().z ();
+  return sums.upright + sums.level >= limits.room_share * sums.area &&
+         std::min (sums.upright, sums.level) >= limits.room_part * sums.area &&
+         std::abs (sums.area_vector.z ()) <= limits.room_openings * sums.from_above &&
+         sums.meanNormal () <= limits.room_openings &&
+         std::abs (std::abs (sums.volume) - prism) <= FURNITURE * prism;
 }
 
 } // namespace pcl::floater

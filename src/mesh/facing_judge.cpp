@@ -13,46 +13,9 @@ namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
-// Confidence in rooms, since a box may have windows, and the share of all directions in which only
-// one side of a bowl or of half a body is visible, at which either is as likely. Measured on
-// generated clouds of both.
+// Confidence in rooms, since a box may have windows; and the share of all directions in which only one
+// side of a bowl or of half a body is visible, at which either is as likely: by generated clouds.
 constexpr double ROOM_CERTAINTY = 0.8, BOWL = 0.3;
-
-bool
-facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  const double longest = normal.cwiseAbs ().maxCoeff ();
-  for (const int axis : {2, 1})
-    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
-      return normal[axis] < 0.0;
-  return normal.x () < 0.0;
-}
-
-// No terrain: it stands.
-bool
-isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
-}
-
-// Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of
-// two gives 0.9.
-double
-certaintyOf (double factor)
-{
-  const double cube = factor * factor * factor;
-  return cube / (1.0 + cube);
-}
-
-// Confidence that terrain or a sheet faces up: what lies has been seen from above, what stands from
-// either side, and few roofs are steeper than 45 degrees.
-double
-certaintyOfUp (const Eigen::Vector3d& normal)
-{
-  const double squared_length = normal.squaredNorm ();
-  const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;
-  return 0.5 + 0.5 * square * square;
-}
 
 // Decides the front of each object.
 class FacingJudge
@@ -101,7 +64,7 @@ public:
                std::abs (sums.seen) >= (hints_.is_scan ? 0.0 : limits_.seen_share) * sums.in_sight)
         decide (o, FacingRule::SENSOR, sums.seen < 0.0,
                 0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
-      else if (!by_side && isRoom (sums)) {
+      else if (!by_side && isRoom (sums, limits_)) {
         is_body_[o] = 0; // furniture is no wall of a hollow
         decide (o, FacingRule::ROOM, sums.volume > 0.0, ROOM_CERTAINTY);
       }
@@ -128,16 +91,6 @@ private:
   {
     return hints_.sensor && !hints_.faces_sensor &&
            (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS);
-  }
-
-  // Of boxes with openings in their sides only, most are rooms: of a box that was seen from
-  // outside, nothing tells what is within, or the bottom is missing.
-  bool isRoom (const FacingSums& sums) const
-  {
-    return sums.upright + sums.level >= limits_.room_share * sums.area &&
-           std::min (sums.upright, sums.level) >= limits_.room_part * sums.area &&
-           std::abs (sums.area_vector.z ()) <= limits_.room_openings * sums.from_above &&
-           sums.meanNormal () <= limits_.room_openings;
   }
 
   // A closed component has one side towards the sensor only if the sensor is within it.
@@ -343,12 +296,11 @@ private:
       const double up = certaintyOfUp (objects_.sums[o].area_vector);
       const double either = certaintyOf ((std::max (std::abs (body), sheet) + chance) /
                                          (std::min (std::abs (body), sheet) + chance));
-      const bool do_agree = is_inwards == is_down;
-      if (is_body)
-        decide (o, FacingRule::BODY, is_inwards,
-                do_agree ? std::max (outside, up) : std::min (outside, either));
+      if (!is_body)
+        decideSheet (o, is_inwards == is_down ? 1.0 : either);
       else
-        decideSheet (o, do_agree ? 1.0 : either);
+        decide (o, FacingRule::BODY, is_inwards,
+                is_inwards == is_down ? std::max (outside, up) : std::min (outside, either));
     }
   }
 

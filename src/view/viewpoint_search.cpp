@@ -20,9 +20,9 @@ class ViewpointSearch
 public:
   ViewpointSearch (const Points& points, const CsrLists& neighbors,
                    const std::vector<AreaSample>& samples, const SearchLimits& limits,
-                   const EvidenceLimits& evidence, bool is_even, const RunContext& run)
+                   const EvidenceLimits& evidence, bool may_be_far, const RunContext& run)
       : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
-        evidence_ (evidence), run_ (run), samples_ (samples), is_even_ (is_even)
+        evidence_ (evidence), run_ (run), samples_ (samples), may_be_far_ (may_be_far)
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
@@ -101,7 +101,7 @@ public:
       std::vector<double> angles;
       return one.cost > most ||
              // A raster of heights is as even from far away.
-             (is_even_ &&
+             (!may_be_far_ &&
               one.cost > NEARER * areaSpread (samples_, farFrom (one.viewpoint), angles));
     };
     candidates.erase (std::remove_if (candidates.begin (), candidates.end (), isWorse),
@@ -118,7 +118,7 @@ public:
     for (const RatedViewpoint& candidate : candidates) {
       RatedViewpoint found = NOT_FOUND;
       if (!takeBetter (refineWithFar (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
-          !is_even_)
+          may_be_far_)
         takeBetter (refine (mirrored (candidate.viewpoint)), found);
       if (const std::optional<Viewpoint> place = placeOf (found))
         if (isDetermined (*place))
@@ -157,8 +157,8 @@ private:
   // such as a raster of heights.
   bool isDetermined (const Viewpoint& found) const
   {
-    return !is_even_ || (!found.is_far && evidenceAt (found).ray_spread <
-                                              FARTHER * evidenceAt (farFrom (found)).ray_spread);
+    return may_be_far_ || (!found.is_far && evidenceAt (found).ray_spread <
+                                                FARTHER * evidenceAt (farFrom (found)).ray_spread);
   }
 
   // The direction of rays from far beyond a place.
@@ -237,7 +237,7 @@ private:
       candidates.push_back ({0.0, viewpoint});
     };
     const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
-    const std::size_t n = is_even_ ? limits_.cells / 2 : limits_.cells;
+    const std::size_t n = may_be_far_ ? limits_.cells : limits_.cells / 2;
     const auto cells = static_cast<double> (n);
     for (std::size_t i = 0; i < n * n * n; ++i) {
       const std::size_t column = i / n % n, layer = i / (n * n);
@@ -251,7 +251,7 @@ private:
       const Eigen::Vector3d direction = spiralDirection (i, limits_.directions);
       for (const double distance : {1.5, 3.0, 6.0})
         add ({centre + distance * size.norm () * direction, false});
-      if (!is_even_)
+      if (may_be_far_)
         add ({direction, true});
     }
     parallelRanges (run_, candidates.size (), [&] (std::size_t first, std::size_t last) {
@@ -297,7 +297,7 @@ private:
   {
     constexpr double FAR = 1.5; // bounding boxes
     const Eigen::Vector3d offset = box_.center () - viewpoint.place;
-    if (!is_even_ && !viewpoint.is_far && offset.norm () > FAR)
+    if (may_be_far_ && !viewpoint.is_far && offset.norm () > FAR)
       if (const std::optional<Viewpoint> found = refine ({offset.normalized (), true}))
         return found;
     return refine (viewpoint);
@@ -380,22 +380,22 @@ private:
   const std::vector<AreaSample>& samples_;
   std::vector<AreaSample> few_samples_; // to compare many viewpoints
   Eigen::AlignedBox3d box_;
-  bool is_even_;
+  bool may_be_far_;
 };
 
 } // namespace
 
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, bool is_even, const SearchLimits& limits,
-               const EvidenceLimits& evidence, const RunContext& run)
+               const std::vector<AreaSample>& samples, bool is_even, bool may_be_far,
+               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
 {
   constexpr std::size_t FEWEST_PATCHES = 16;
   EvidenceLimits filled = evidence;
   filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
   if (filled.patches < FEWEST_PATCHES)
     return {};
-  const ViewpointSearch search (points, neighbors, samples, limits, filled, is_even, run);
+  const ViewpointSearch search (points, neighbors, samples, limits, filled, may_be_far, run);
   if (!is_even) {
     const RowEvidence rows = findRows (points, neighbors, limits.samples);
     if (rows.share > limits.rows && !rows.are_straight)

@@ -69,11 +69,12 @@ struct SearchLimits
 /// \param neighbors nearest first
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples
 /// \param is_even   search evenly sampled clouds only, which need no view but for their noise and
-///     their front, and near viewpoints; otherwise only the others
+///     their front; otherwise only the others
+/// \param may_be_far not for even clouds without noise: rasters of heights are even from far away
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, bool is_even, const SearchLimits& limits,
-               const EvidenceLimits& evidence, const RunContext& run);
+               const std::vector<AreaSample>& samples, bool is_even, bool may_be_far,
+               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run);
 
 } // namespace pcl::floater
