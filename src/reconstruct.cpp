@@ -145,6 +145,16 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
                   result);
 }
 
+// Whether stars are open as along the border of a sheet. A square has four times as many points on
+// it as the root of all, and a third of their stars are open: the others reach back. Half of that.
+bool
+isOpen (const Stars& stars)
+{
+  const auto open = static_cast<double> (
+      std::count_if (stars.open.begin (), stars.open.end (), [] (auto is) { return is != 0; }));
+  return 4.0 * open * open >= static_cast<double> (stars.open.size ());
+}
+
 // Reconstructs a cloud whose viewpoint is unknown, or that is not a single scan.
 Problem
 reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request& request,
@@ -187,7 +197,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
     if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
-            points, planes.neighbors, samples, false, search, limits.view.evidence, run)))
+            points, planes.neighbors, samples, false, true, search, limits.view.evidence, run)))
       return *problem;
   }
   const bool is_measured = options.denoise || dropsScatter (options);
@@ -209,10 +219,13 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   noise.is_strong = isStrongNow (limits.noise.disturbed_share);
   const std::vector<Index> scatter =
       is_measured ? scatterOf (points, geometry, noise, request) : std::vector<Index>{};
-  // Errors along the rays of a scan look like noise and scatter.
-  if (may_be_seen && (noise.is_strong || !scatter.empty ()))
-    if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
-            points, geometry.neighbors, samples, true, search, limits.view.evidence, run)))
+  // Errors along the rays of a scan look like noise and scatter; of what is open, the sensor tells
+  // the front.
+  const bool looks_noisy = noise.is_strong || !scatter.empty ();
+  if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
+    if (const std::optional<Problem> problem =
+            reconstructFrom (findViewpoint (points, geometry.neighbors, samples, true, looks_noisy,
+                                            search, limits.view.evidence, run)))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {
     geometry = {};

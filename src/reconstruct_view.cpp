@@ -37,9 +37,10 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   const std::vector<AreaSample> samples =
       takeAreaSamples (points, planes, starSettings (request), search.samples, run);
   std::optional<Viewpoint> found;
-  for (const bool is_noisy : {false, true})
+  for (const bool is_even : {false, true})
     if (!found)
-      found = findViewpoint (points, planes.neighbors, samples, is_noisy, search, evidence, run);
+      found =
+          findViewpoint (points, planes.neighbors, samples, is_even, true, search, evidence, run);
   return found;
 }
 
@@ -55,9 +56,6 @@ knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin
   const EvidenceLimits& evidence = request.limits.view.evidence;
   if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
     return viewpoint;
-  if (isSensorKnown (sensor_origin) && !looksToAllSides (points.positions, viewpoint, evidence) &&
-      hidesLittle (points.positions, viewpoint, evidence, request.run))
-    return Viewpoint{viewpoint.place, false, true};
   return {};
 }
 
@@ -94,9 +92,8 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   LocalGeometry geometry;
   geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
-  const double most_unused = (viewpoint.is_only_told ? limits.view.largest_unused_if_told
-                                                     : limits.view.largest_unused_share) *
-                             static_cast<double> (points.size ());
+  const double most_unused =
+      limits.view.largest_unused_share * static_cast<double> (points.size ());
   const bool is_doubtful = static_cast<double> (found.unused.size ()) > most_unused;
   if (options.view.use != ViewUse::GIVEN && is_doubtful &&
       (static_cast<double> (found.unused.size ()) >

@@ -22,8 +22,7 @@ namespace pcl::floater {
 std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request);
 
-/// The given viewpoint, or the origin of the sensor if the points are evenly spaced from there, or if
-/// the file has one and hardly any point hides others from there.
+/// The given viewpoint, or the origin of the sensor if the points are evenly spaced from there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
                 const Request& request);

@@ -43,8 +43,8 @@ statusName (RunStatus status)
 const char*
 facingRuleName (FacingRule rule)
 {
-  static constexpr const char* NAMES[] = {"closed", "hollow",  "sensor", "body",
-                                          "sheet",  "normals", "up",     "bulge"};
+  static constexpr const char* NAMES[] = {"closed",  "hollow", "sensor", "body", "sheet",
+                                          "normals", "up",     "bulge",  "room"};
   static_assert (sizeof NAMES / sizeof *NAMES == static_cast<std::size_t> (FacingRule::COUNT));
   return nameOf (NAMES, rule);
 }

@@ -6,6 +6,7 @@
 #include "mesh/facing_judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -44,8 +45,8 @@ class PartialSums
 public:
   PartialSums () = default;
   PartialSums (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, std::size_t first,
-               std::size_t last)
+               const MeshComponents& found, const FacingHints& hints, double room_sine,
+               std::size_t first, std::size_t last)
   {
     std::unordered_map<Index, std::size_t> places; // of components in parts_
     Index current = NONE;                          // component
@@ -59,7 +60,7 @@ public:
           parts_.push_back ({current, {{}, positions[corners[0]]}});
       }
       ComponentSum& part = parts_[place].second;
-      add (mesh.neighbors[t], corners, positions, hints, part.origin, part.sum);
+      add (mesh.neighbors[t], corners, positions, hints, room_sine, part.origin, part.sum);
     }
   }
 
@@ -73,14 +74,19 @@ public:
 private:
   static void add (const std::array<Index, 3>& neighbors, const Triangle& corners,
                    const std::vector<Eigen::Vector3d>& positions, const FacingHints& hints,
-                   const Eigen::Vector3d& origin, FacingSums& sum)
+                   double room_sine, const Eigen::Vector3d& origin, FacingSums& sum)
   {
     ++sum.triangles;
     const Eigen::Vector3d area_vector = areaVectorOf (corners, positions);
     const double area = area_vector.norm ();
     sum.area_vector += area_vector;
     sum.area += area;
-    sum.from_above += std::abs (area_vector.z ());
+    const double from_above = std::abs (area_vector.z ());
+    sum.from_above += from_above;
+    if (from_above <= room_sine * area)
+      sum.upright += area;
+    else if (area_vector.head<2> ().norm () <= room_sine * area)
+      sum.level += area;
     sum.volume += (positions[corners[0]] - origin).dot (area_vector);
     for (std::size_t i = 0; i < 3; ++i) {
       sum.at = std::min (sum.at, corners[i]);
@@ -126,9 +132,10 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                const RunContext& run)
 {
   const std::size_t triangles = mesh.triangles.size ();
+  const double room_sine = std::sin (limits.room_angle * DEGREE);
   std::vector<PartialSums> parts ((triangles + SUMMED - 1) / SUMMED);
   parallelTasks (run, parts.size (), [&] (std::size_t i) {
-    parts[i] = PartialSums (mesh, positions, found, hints, i * SUMMED,
+    parts[i] = PartialSums (mesh, positions, found, hints, room_sine, i * SUMMED,
                             std::min (triangles, (i + 1) * SUMMED));
   });
   std::vector<ComponentSum> components (found.count);
@@ -153,7 +160,7 @@ findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
 {
   if (hints.wanted == Facing::UP || hints.wanted == Facing::VIEWPOINT)
     return {};
-  if (hints.faces_sensor && hints.wanted != Facing::OUTWARDS)
+  if (hints.faces_sensor && !hints.wantsASide ())
     return {};
   if (!hints.is_one_view && !hints.faces_sensor)
     return findContinuations (mesh, found, positions, limits.continuations, run);
@@ -241,6 +248,51 @@ bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& comp
     bulges[o] = is_flat ? 0.0 : bulges[o] / volumes[o];
   }
   return bulges;
+}
+
+bool
+facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
+{
+  const double longest = normal.cwiseAbs ().maxCoeff ();
+  for (const int axis : {2, 1})
+    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
+      return normal[axis] < 0.0;
+  return normal.x () < 0.0;
+}
+
+bool
+isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
+{
+  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
+}
+
+double
+certaintyOf (double factor)
+{
+  const double cube = factor * factor * factor;
+  return cube / (1.0 + cube);
+}
+
+double
+certaintyOfUp (const Eigen::Vector3d& normal)
+{
+  const double squared_length = normal.squaredNorm ();
+  const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;
+  return 0.5 + 0.5 * square * square;
+}
+
+bool
+isRoom (const FacingSums& sums, const FacingLimits& limits)
+{
+  constexpr double FURNITURE = 0.3; // or walls within; generated rooms have 0.15, and fandisk, a
+                                    // part of a machine with level and upright faces, 0.57
+  // Six times the floor, which is a quarter of the doubled area, times the height.
+  const double prism = 1.5 * sums.from_above * sums.box.sizes ().z ();
+  return sums.upright + sums.level >= limits.room_share * sums.area &&
+         std::min (sums.upright, sums.level) >= limits.room_part * sums.area &&
+         std::abs (sums.area_vector.z ()) <= limits.room_openings * sums.from_above &&
+         sums.meanNormal () <= limits.room_openings &&
+         std::abs (std::abs (sums.volume) - prism) <= FURNITURE * prism;
 }
 
 } // namespace pcl::floater

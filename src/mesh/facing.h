@@ -33,7 +33,8 @@ struct FacingLimits
 
   /// Share of the mesh that is visible from the sensor; and of an object, area facing the sensor
   /// minus area facing away, by solid angle. If both are above, it was seen from there: one scan
-  /// has 1 minus its noise; a whole body, half hidden, has 0.
+  /// has 1 minus its noise; a whole body, half hidden, has 0. See also FacingHints::is_scan: noise
+  /// of half a spacing leaves 0.5.
   double seen_share = 0.8;
 
   /// Area of a component whose input normals point to one side minus the other, as a share of its
@@ -45,6 +46,12 @@ struct FacingLimits
   /// Share of the directions from the sensor in which the inside of a closed component is visible:
   /// 1 within it, 0 outside. Midway.
   double within_share = 0.5;
+
+  /// A room has at least this share of its area in floors, ceilings and walls, to so many degrees; at
+  /// least a tenth of it in each kind, as much floor as ceiling, and openings in no more than this
+  /// share of its area. A ball has a room_share of 0.4, a sheet no ceiling, a tube no floor, and what
+  /// stands on the ground no bottom.
+  double room_share = 0.7, room_part = 0.1, room_angle = 20.0, room_openings = 0.1;
 
   /// Mean height of a flat object, as a share of its size: rounding of 32-bit coordinates. Flatter
   /// objects have no bulge.
@@ -77,12 +84,15 @@ struct FacingLimits
 struct FacingHints
 {
   std::optional<Eigen::Vector3d> sensor; ///< position of the sensor, if known
+  bool is_scan = false;      ///< the points do not contradict that the sensor saw them all
   bool is_one_view = false;  ///< all open components already have the same orientation: towards the
                              ///< unknown sensor, or away from it
   bool faces_sensor = false; ///< all open components face the sensor already
   Facing wanted = Facing::AUTO;
   const std::vector<Eigen::Vector3f>* normals = nullptr; ///< of the points, to the front of the
                                                          ///< surface, zero where unknown
+
+  bool wantsASide () const { return wanted == Facing::OUTWARDS || wanted == Facing::INWARDS; }
 };
 
 /// Why the requested evidence did not decide.
@@ -124,6 +134,7 @@ struct MeshFacing
 /// - A closed component encloses a positive volume. Within an odd number of other bodies it is the
 ///   wall of a hollow, and faces into it, unless it is visible through windows of those bodies.
 /// - A component that was seen from the sensor faces the sensor.
+/// - A room, which has a floor, a ceiling and walls with openings, faces the people in it.
 /// - A body, such as a statue open at the bottom, a tube, a scanned face or half a sphere, faces
 ///   the side that is more visible from outside, by lines of sight in all directions (see
 ///   FacingLimits::body_ratio). Within another body, that one hides it too: the inner wall of a
@@ -134,7 +145,7 @@ struct MeshFacing
 ///
 /// This is Facing::AUTO, and the fallback of the other choices. With OUTWARDS, a sheet faces its
 /// more visible side, however small the difference; if it is within chance, the side to which it
-/// bulges. With UP and VIEWPOINT, every component is oriented by itself. O(n log n), about 0.3
+/// bulges. INWARDS is the opposite of it. With UP and VIEWPOINT, every component is oriented by itself. O(n log n), about 0.3
 /// microseconds per point of a body.
 MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -148,6 +159,7 @@ struct FacingSums
   double volume = 0.0;               ///< six times the volume enclosed by a closed one
   double seen = 0.0, in_sight = 0.0; ///< from the sensor: signed and unsigned solid angle, doubled
   double from_above = 0.0;           ///< unsigned area seen along z; doubled
+  double upright = 0.0, level = 0.0; ///< area of walls, and of floors and ceilings; doubled
   double along = 0.0, told = 0.0;    ///< area times cosine to the input normals, signed and
                                      ///< unsigned, of components with agreeing normals; doubled
   double contradictory = 0.0;        ///< unsigned, of components with contradictory normals
@@ -164,6 +176,8 @@ struct FacingSums
     seen += sign * other.seen;
     in_sight += other.in_sight;
     from_above += other.from_above;
+    upright += other.upright;
+    level += other.level;
     along += sign * other.along;
     told += other.told;
     contradictory += other.contradictory;

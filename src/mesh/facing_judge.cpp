@@ -13,31 +13,9 @@ namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
-bool
-facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  const double longest = normal.cwiseAbs ().maxCoeff ();
-  for (const int axis : {2, 1})
-    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
-      return normal[axis] < 0.0;
-  return normal.x () < 0.0;
-}
-
-// No terrain: it stands.
-bool
-isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
-}
-
-// Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of
-// two gives 0.9.
-double
-certaintyOf (double factor)
-{
-  const double cube = factor * factor * factor;
-  return cube / (1.0 + cube);
-}
+// Confidence in rooms, since a box may have windows; and the share of all directions in which only one
+// side of a bowl or of half a body is visible, at which either is as likely: by generated clouds.
+constexpr double ROOM_CERTAINTY = 0.8, BOWL = 0.3;
 
 // Decides the front of each object.
 class FacingJudge
@@ -54,7 +32,7 @@ public:
 
   void judge ()
   {
-    const bool is_scan = mayFaceSensor () && isSeenFrom (*hints_.sensor);
+    const bool is_scan = mayFaceSensor () && (hints_.is_scan || isSeenFrom (*hints_.sensor));
     std::vector<Index> open;
     for (Index o = 0; o < judged_.size (); ++o) {
       const FacingSums& sums = objects_.sums[o];
@@ -62,7 +40,7 @@ public:
       object.triangles = sums.triangles;
       object.at = sums.at;
       object.mean_normal = sums.meanNormal ();
-      const bool is_outwards = hints_.wanted == Facing::OUTWARDS;
+      const bool by_side = hints_.wantsASide ();
       is_body_[o] = sums.is_closed ? 1 : 0;
       if (hints_.normals != nullptr && sums.told == 0.0)
         object.miss = sums.contradictory > 0.0           ? FacingMiss::CONTRADICTION
@@ -80,21 +58,28 @@ public:
           object.miss = FacingMiss::CLOSED;
         decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
       }
-      else if (!is_outwards && hints_.faces_sensor)
+      else if (!by_side && hints_.faces_sensor)
         decide (o, FacingRule::SENSOR, false, 1.0);
-      else if (!is_outwards && is_scan &&
-               std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
+      else if (!by_side && is_scan &&
+               std::abs (sums.seen) >= (hints_.is_scan ? 0.0 : limits_.seen_share) * sums.in_sight)
         decide (o, FacingRule::SENSOR, sums.seen < 0.0,
                 0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
+      else if (!by_side && isRoom (sums, limits_)) {
+        is_body_[o] = 0; // furniture is no wall of a hollow
+        decide (o, FacingRule::ROOM, sums.volume > 0.0, ROOM_CERTAINTY);
+      }
       // The back side is visible from at least |mean normal| of all directions: all light through
       // the openings reaches it.
-      else if (!is_outwards && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
+      else if (!by_side && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
         decideSheet (o, 1.0);
       else
         open.push_back (o);
     }
     judgeOpen (open);
     judgeNested ();
+    if (hints_.wanted == Facing::INWARDS)
+      for (std::uint8_t& is_turned : is_turned_)
+        is_turned ^= 1U;
   }
 
   const std::vector<FacingObject>& objects () const { return judged_; }
@@ -182,7 +167,7 @@ private:
     if (std::abs (bulge) >= limits_.bulge)
       decide (o, FacingRule::BULGE, is_down != (bulge < 0.0), 0.5 + 0.5 * std::abs (bulge));
     else
-      decide (o, FacingRule::SHEET, is_down, certainty);
+      decide (o, FacingRule::SHEET, is_down, std::min (certainty, certaintyOfUp (normal)));
   }
 
   void decide (Index o, FacingRule rule, bool is_turned, double certainty)
@@ -302,18 +287,20 @@ private:
       const bool is_inwards = body < 0.0,
                  is_down = facesDown (objects_.sums[o].area_vector, limits_);
       const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
-      if (hints_.wanted == Facing::OUTWARDS) {
+      if (hints_.wantsASide ()) {
         decideOutwards (o, body, chance);
         continue;
       }
-      const double certainty = is_inwards == is_down
-                                   ? certaintyOf ((std::abs (body) + sheet + chance) / chance)
-                                   : certaintyOf ((std::max (std::abs (body), sheet) + chance) /
-                                                  (std::min (std::abs (body), sheet) + chance));
-      if (is_body)
-        decide (o, FacingRule::BODY, is_inwards, certainty);
+      // What the sensor saw of half a body may as well be the inside of a bowl.
+      const double outside = certaintyOf ((std::abs (body) + chance) / (BOWL + chance));
+      const double up = certaintyOfUp (objects_.sums[o].area_vector);
+      const double either = certaintyOf ((std::max (std::abs (body), sheet) + chance) /
+                                         (std::min (std::abs (body), sheet) + chance));
+      if (!is_body)
+        decideSheet (o, is_inwards == is_down ? 1.0 : either);
       else
-        decideSheet (o, certainty);
+        decide (o, FacingRule::BODY, is_inwards,
+                is_inwards == is_down ? std::max (outside, up) : std::min (outside, either));
     }
   }
 

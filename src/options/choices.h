@@ -21,11 +21,12 @@ constexpr Choices<HolePolicy, 5> HOLE_CHOICES{{{"auto", HolePolicy::AUTO},
                                                {"keep-largest", HolePolicy::KEEP_LARGEST},
                                                {"keep-count", HolePolicy::KEEP_COUNT},
                                                {"by-size", HolePolicy::BY_SIZE}}};
-constexpr Choices<Facing, 5> FACING_CHOICES{{{"auto", Facing::AUTO},
+constexpr Choices<Facing, 6> FACING_CHOICES{{{"auto", Facing::AUTO},
                                              {"outwards", Facing::OUTWARDS},
                                              {"up", Facing::UP},
                                              {"viewpoint", Facing::VIEWPOINT},
-                                             {"normals", Facing::NORMALS}}};
+                                             {"normals", Facing::NORMALS},
+                                             {"inwards", Facing::INWARDS}}};
 constexpr Choices<ScatterPolicy, 3> SCATTER_CHOICES{
     {{"auto", ScatterPolicy::AUTO}, {"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
 constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{

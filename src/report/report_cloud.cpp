@@ -201,6 +201,7 @@ guessOf (Facing wanted)
 {
   switch (wanted) {
   case Facing::OUTWARDS:
+  case Facing::INWARDS:
     return FindingId::GUESSED_OUTSIDE;
   case Facing::UP:
     return FindingId::GUESSED_UP;

@@ -108,13 +108,6 @@ private:
     return split == Split::FIRST ? OF_FIRST[side] : OF_SECOND[side];
   }
 
-  /// Which of the two triangles of a complete cell is at a side.
-  static std::size_t halfAt (Split split, std::size_t side)
-  {
-    constexpr std::array<std::size_t, 4> OF_FIRST{0, 0, 1, 1}, OF_SECOND{0, 1, 1, 0};
-    return split == Split::FIRST ? OF_FIRST[side] : OF_SECOND[side];
-  }
-
   template <typename Body>
   void forCells (const Body& body) const
   {
@@ -217,7 +210,6 @@ private:
   /// \return false if some cells are not in the Delaunay triangulation; they are marked incomplete
   bool joinOuter ()
   {
-    joints_.clear ();
     std::vector<std::array<std::uint8_t, 3>> is_closed (outer_.triangles.size (), {0, 0, 0});
     std::vector<Index> kept, covered, fan;
     std::vector<std::size_t> bad;
@@ -242,7 +234,6 @@ private:
         if (edge.triangle == NONE)
           continue; // on the convex hull
         is_closed[edge.triangle][edge.side] = 1;
-        joints_.push_back ({cell, side, edge});
         if (isInCircle (from, to, q[apexAt (splits_[cell], side)], outer_.corner (edge)))
           bad.push_back (cell);
         kept.push_back (edge.triangle);
@@ -290,86 +281,24 @@ private:
   {
     if (overlaps_)
       return {};
-    // Cells first, then the triangles between them.
-    std::vector<Index> first_of (cells (), NONE);
-    Index count = 0;
-    for (std::size_t cell = 0; cell < cells (); ++cell)
-      if (isComplete (cell)) {
-        first_of[cell] = count;
-        count += 2;
-      }
-    const Index outer_begin = count;
-    std::vector<Index> number (outer_.triangles.size (), NONE);
-    for (const Index t : kept_)
-      number[t] = count++;
-
     TriangleMesh mesh;
-    mesh.triangles.resize (count);
-    mesh.neighbors.resize (count);
-    mesh.triangle_of.assign (places_.size (), NONE);
-    forCells ([&] (std::size_t cell) {
-      if (first_of[cell] != NONE)
-        setCell (mesh, cell, first_of);
-    });
-    for (Index t = 0; t < outer_begin; ++t)
-      for (const Index p : mesh.triangles[t])
-        mesh.triangle_of[p] = t;
-    for (const Index t : kept_) {
-      mesh.triangles[number[t]] = outer_.triangles[t];
-      for (std::size_t side = 0; side < 3; ++side) {
-        const Index other = outer_.neighbors[t][side];
-        mesh.neighbors[number[t]][side] = other == NONE ? NONE : number[other];
-      }
-      for (const Index p : outer_.triangles[t])
-        mesh.triangle_of[p] = number[t];
+    for (std::size_t cell = 0; cell < cells (); ++cell) {
+      if (!isComplete (cell))
+        continue;
+      const Corners q = cornersOf (cell);
+      const bool is_first = splits_[cell] == Split::FIRST;
+      mesh.triangles.push_back ({q[0], q[1], is_first ? q[2] : q[3]});
+      mesh.triangles.push_back ({is_first ? q[0] : q[1], q[2], q[3]});
     }
-    for (const Joint& joint : joints_) {
-      const Split split = splits_[joint.cell];
-      const auto inner = static_cast<Index> (first_of[joint.cell] + halfAt (split, joint.side));
-      const Index outer = number[joint.outer.triangle];
-      mesh.neighbors[outer][joint.outer.side] = inner;
-      mesh.neighbors[inner][sideIn (split, joint.side)] = outer;
-    }
+    for (const Index t : kept_)
+      mesh.triangles.push_back (outer_.triangles[t]);
+    if (!mesh.connect (places_.size (), run_))
+      return {};
     for (Index p = 0; p < places_.size (); ++p)
       if (mesh.triangle_of[p] == NONE && outer_.triangle_of[p] != NONE)
         return {};
     return mesh;
   }
-
-  /// Side of the triangle at a side of a cell (see setCell).
-  static std::size_t sideIn (Split split, std::size_t side)
-  {
-    constexpr std::array<std::size_t, 4> OF_FIRST{2, 0, 0, 1}, OF_SECOND{2, 2, 0, 1};
-    return split == Split::FIRST ? OF_FIRST[side] : OF_SECOND[side];
-  }
-
-  void setCell (TriangleMesh& mesh, std::size_t cell, const std::vector<Index>& first_of) const
-  {
-    const Corners q = cornersOf (cell);
-    const Split split = splits_[cell];
-    const Index one = first_of[cell], two = one + 1;
-    const bool is_first = split == Split::FIRST;
-    mesh.triangles[one] = {q[0], q[1], is_first ? q[2] : q[3]};
-    mesh.triangles[two] = {is_first ? q[0] : q[1], q[2], q[3]};
-    // The diagonal is opposite to corner 1, and to corner 3.
-    mesh.neighbors[one][is_first ? 1 : 0] = two;
-    mesh.neighbors[two][is_first ? 2 : 1] = one;
-    for (std::size_t side = 0; side < 4; ++side) {
-      const std::size_t other = across (cell, side);
-      const Index t = halfAt (split, side) == 0 ? one : two;
-      mesh.neighbors[t][sideIn (split, side)] =
-          isComplete (other)
-              ? static_cast<Index> (first_of[other] + halfAt (splits_[other], (side + 2) % 4))
-              : NONE;
-    }
-  }
-
-  /// A side of a complete cell, and the edge of the triangle beyond it.
-  struct Joint
-  {
-    std::size_t cell, side;
-    MeshEdge outer;
-  };
 
   const std::vector<Eigen::Vector2d>& places_;
   RunContext run_;
@@ -380,8 +309,7 @@ private:
   std::vector<Split> splits_;   // of each cell
   TriangleMesh outer_;
   std::vector<Index> kept_; // triangles of the outer triangulation between cells, ascending
-  std::vector<Joint> joints_;
-  bool overlaps_ = false; // complete cells overlap, as in a scan of a full turn
+  bool overlaps_ = false;   // complete cells overlap, as in a scan of a full turn
 };
 
 } // namespace

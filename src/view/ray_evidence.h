@@ -71,9 +71,9 @@ struct EvidenceLimits
                                 ///< more if they are more alike, in proportion. A clean depth frame
   ///< seen from 60 % of its depth beside the camera has 0.009 at 0.34; a
   ///< scan from a moving car 0.018 at 0.06; from a standing one, 0.003
-  double hidden_if_told = 0.03; ///< `hidden_share` if the file tells the place, such as that of a
-                                ///< scan with much noise after a voxel filter, 0.018. Bodies seen
-                                ///< from outside have 0.1 and more
+  double hidden_if_told = 0.03; ///< `hidden_share` of a scan whose place is told, such as one with
+                                ///< much noise after a voxel filter, 0.018. Bodies seen from
+                                ///< outside have 0.1 and more
   double hidden_slope = 4.0;    ///< difference of their depths over the distance to the second ray;
                                 ///< as StepLimits::slope
   double beside = 0.25; ///< of the median depth: distance of six places around the viewpoint from
@@ -128,10 +128,11 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits, const RunContext& run);
 
-/// Whether hardly any point hides others; weaker than explainsDensity. Same cost.
+/// Whether points may be one scan from a place that is told, since hardly any hides others; weaker
+/// than explainsDensity. Same cost.
 bool
-hidesLittle (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-             const EvidenceLimits& limits, const RunContext& run);
+mayBeSeenFrom (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+               const EvidenceLimits& limits, const RunContext& run);
 
 /// Whether there are rays in all directions.
 bool

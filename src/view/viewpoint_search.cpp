@@ -4,8 +4,8 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
+#include "view/pattern_search.h"
 #include "view/ray_evidence.h"
-#include "view/viewpoint_fit.h"
 
 #include <Eigen/Geometry>
 
@@ -20,12 +20,14 @@ class ViewpointSearch
 public:
   ViewpointSearch (const Points& points, const CsrLists& neighbors,
                    const std::vector<AreaSample>& samples, const SearchLimits& limits,
-                   const EvidenceLimits& evidence, const RunContext& run)
+                   const EvidenceLimits& evidence, bool may_be_far, const RunContext& run)
       : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
-        evidence_ (evidence), run_ (run), samples_ (samples)
+        evidence_ (evidence), run_ (run), samples_ (samples), may_be_far_ (may_be_far)
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
+    evidence_.hidden_share *= evidence_.density_regularity / limits.density_regularity;
+    evidence_.density_regularity = limits.density_regularity;
     coarse_ = evidence_;
     coarse_.patches = std::min (coarse_.patches, limits.coarse_patches);
     constexpr std::size_t EVERY = 4;
@@ -59,17 +61,8 @@ public:
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (
         positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points);
-    // Lines on a plane are even from all directions, and show none. Around the right direction,
-    // costs rise slowly, so every third direction shows whether there may be one: in 80 generated
-    // line scans, the least of these costs was .009 to .053 of their median.
-    constexpr std::size_t THIRD = 3;
-    constexpr double BESIDE = 2.0; // factor of the least cost up to 1.5 degrees away
-    std::vector<RatedViewpoint> thirds;
-    for (std::size_t k = 0; k < count; k += THIRD)
-      thirds.push_back (candidates[k]);
-    rateByRays (thirds, patches);
-    if (!standsOut (thirds, BESIDE * evidence_.regularity))
-      return {};
+    // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
+    // least cost was .009 to .053 of the median.
     rateByRays (candidates, patches);
     if (!standsOut (candidates, evidence_.regularity))
       return {};
@@ -100,32 +93,45 @@ public:
       if (!isNear (found, candidates, 4.0 * SMALLEST_AREA_STEP))
         candidates.push_back (found);
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    if (candidates.empty () || candidates.front ().cost > limits_.explained * spreadOfAreas ())
+    const double spread = spreadOfAreas ();
+    if (candidates.empty () || candidates.front ().cost > limits_.explained * spread)
       return {};
-    // First the best by areas, then the best by rays of the next ones. Areas can mislead: in a
-    // plane, they are the same from the mirror image of a viewpoint.
-    candidates.resize (std::min (candidates.size (), limits_.by_areas + limits_.compared));
-    const auto others = candidates.begin () + static_cast<std::ptrdiff_t> (
-                                                  std::min (candidates.size (), limits_.by_areas));
-    for (auto candidate = candidates.begin (); candidate != others; ++candidate) {
+    const double most = spread - limits_.as_good * (spread - candidates.front ().cost);
+    const auto isWorse = [&] (const RatedViewpoint& one) {
+      std::vector<double> angles;
+      return one.cost > most ||
+             // A raster of heights is as even from far away.
+             (!may_be_far_ &&
+              one.cost > NEARER * areaSpread (samples_, farFrom (one.viewpoint), angles));
+    };
+    candidates.erase (std::remove_if (candidates.begin (), candidates.end (), isWorse),
+                      candidates.end ());
+    // Areas can mislead: in a plane, they are the same from many places. Rays tell which is right.
+    parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
+      const RunContext one = run_.withThreads (1);
+      const Viewpoint& place = candidates[k].viewpoint;
+      candidates[k].cost =
+          costByRays (place, findRayPatches (positions_, place, coarse_, one), true, 1);
+    });
+    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    candidates.resize (std::min (candidates.size (), limits_.by_rays));
+    for (const RatedViewpoint& candidate : candidates) {
       RatedViewpoint found = NOT_FOUND;
-      if (!takeBetter (refineWithFar (candidate->viewpoint), found) && !candidate->viewpoint.is_far)
-        takeBetter (refine (mirrored (candidate->viewpoint)), found);
+      if (!takeBetter (refineWithFar (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
+          may_be_far_)
+        takeBetter (refine (mirrored (candidate.viewpoint)), found);
       if (const std::optional<Viewpoint> place = placeOf (found))
-        return place;
+        if (isDetermined (*place))
+          return place;
     }
-    for (auto candidate = others; candidate != candidates.end (); ++candidate)
-      candidate->cost = costByRays (
-          candidate->viewpoint, findRayPatches (positions_, candidate->viewpoint, coarse_, run_));
-    const auto best = std::min_element (others, candidates.end (), isCheaper);
-    return best == candidates.end () ? std::nullopt : refineWithFar (best->viewpoint);
+    return {};
   }
 
 private:
   static constexpr double APART = 0.1;       // of two directions whose descents may differ
   static constexpr double EVEN = 0.02;       // spread of rays that ends the search
-  static constexpr double PLAIN = 0.1;       // ratio of the spreads that leaves no doubt
-  static constexpr double SIDESTEP = 0.03;   // from a fit that outlines do not agree with, as above
+  static constexpr double NEARER = 0.9;      // of the spread of areas from far away
+  static constexpr double FARTHER = 0.5;     // of the spread of rays from far away
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
   inline static const RatedViewpoint NOT_FOUND{std::numeric_limits<double>::infinity (), {}};
@@ -145,6 +151,20 @@ private:
     if (cost < best.cost)
       best = {cost, *found};
     return cost < EVEN;
+  }
+
+  // Whether an evenly sampled cloud is seen from this place, and not from any far one on this side,
+  // such as a raster of heights.
+  bool isDetermined (const Viewpoint& found) const
+  {
+    return may_be_far_ || (!found.is_far && evidenceAt (found).ray_spread <
+                                                FARTHER * evidenceAt (farFrom (found)).ray_spread);
+  }
+
+  // The direction of rays from far beyond a place.
+  Viewpoint farFrom (const Viewpoint& near) const
+  {
+    return {(box_.center () - near.place).normalized (), true};
   }
 
   // Areas give a viewpoint to about a hundredth of the bounding box; rays refine it.
@@ -217,8 +237,8 @@ private:
       candidates.push_back ({0.0, viewpoint});
     };
     const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
-    const auto cells = static_cast<double> (limits_.cells);
-    const std::size_t n = limits_.cells;
+    const std::size_t n = may_be_far_ ? limits_.cells : limits_.cells / 2;
+    const auto cells = static_cast<double> (n);
     for (std::size_t i = 0; i < n * n * n; ++i) {
       const std::size_t column = i / n % n, layer = i / (n * n);
       const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
@@ -231,7 +251,8 @@ private:
       const Eigen::Vector3d direction = spiralDirection (i, limits_.directions);
       for (const double distance : {1.5, 3.0, 6.0})
         add ({centre + distance * size.norm () * direction, false});
-      add ({direction, true});
+      if (may_be_far_)
+        add ({direction, true});
     }
     parallelRanges (run_, candidates.size (), [&] (std::size_t first, std::size_t last) {
       std::vector<double> angles;
@@ -276,7 +297,7 @@ private:
   {
     constexpr double FAR = 1.5; // bounding boxes
     const Eigen::Vector3d offset = box_.center () - viewpoint.place;
-    if (!viewpoint.is_far && offset.norm () > FAR)
+    if (may_be_far_ && !viewpoint.is_far && offset.norm () > FAR)
       if (const std::optional<Viewpoint> found = refine ({offset.normalized (), true}))
         return found;
     return refine (viewpoint);
@@ -317,51 +338,35 @@ private:
         .viewpoint;
   }
 
+  // Along a far direction, nothing is beside.
+  bool explains (const Viewpoint& viewpoint) const
+  {
+    return !viewpoint.is_far &&
+           explainsDensity (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
+                            viewpoint, evidence_, run_);
+  }
+
+  // Patches from a better viewpoint give a still better one; far from it, a few suffice.
   std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
   {
-    constexpr double PRECISION = 1e-6; // a tenth of the spacing of a scan of 1e10 points
+    constexpr std::size_t EARLY = 3; // rounds
+    bool is_explained = false;
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
-      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, coarse_, run_);
-      viewpoint = searchByRays (viewpoint, step, 0.2 * step, patches, with_rows);
-      step *= 0.3;
-      // If the first, coarse steps give no better evidence than this, finer ones rarely do.
-      if (isHopeless (findRayEvidence (positions_, patches, viewpoint, coarse_, run_),
-                      viewpoint.is_far ? limits_.after_round_from_far : limits_.after_round))
-        return {};
-    }
-    // Patches from a better viewpoint give a still better one.
-    const Viewpoint unfitted = viewpoint;
-    RayEvidence evidence;
-    for (std::size_t round = 0; round < limits_.fits; ++round) {
-      const EvidenceLimits& limits = round == 0 ? coarse_ : evidence_;
+      const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
-      const Eigen::Vector3d before = viewpoint.place;
-      viewpoint = fitViewpoint (positions_, patches, viewpoint, round == 0, run_);
-      evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
-      if (round == 0 && isHopeless (evidence, limits_.after_first_fit))
-        return {};
-      if (round > 0 && ((viewpoint.place - before).norm () < PRECISION ||
-                        isHopeless (evidence, limits_.after_fit)))
-        break;
-    }
-    // A fit takes outlines for outliers, and on smooth surfaces nothing else tells where the sensor
-    // was.
-    if (evidence.ray_spread > std::max (EVEN, PLAIN * evidence.point_spread) && !viewpoint.is_far &&
-        !isHopeless (evidence, limits_.after_first_fit)) {
-      if (evidenceAt (unfitted).ray_spread < evidence.ray_spread)
-        viewpoint = unfitted;
-      for (step = SIDESTEP; step > SIDESTEP / 100.0; step *= 0.1) {
-        const std::vector<RayPatch> patches =
-            findRayPatches (positions_, viewpoint, evidence_, run_);
-        viewpoint = searchByRays (viewpoint, step, 0.05 * step, patches, with_rows);
+      viewpoint = searchByRays (viewpoint, step, 0.2 * step, patches, with_rows);
+      step *= 0.4;
+      const EvidenceExcess& excess = round >= EARLY     ? limits_.late
+                                     : viewpoint.is_far ? limits_.early_from_far
+                                                        : limits_.early;
+      if (!is_explained &&
+          isHopeless (findRayEvidence (positions_, patches, viewpoint, limits, run_), excess)) {
+        is_explained = explains (viewpoint);
+        if (!is_explained)
+          return {};
       }
-      evidence = evidenceAt (viewpoint);
     }
-    // Along a far direction, nothing is beside.
-    if (isSeenFromThere (evidence, evidence_) ||
-        (!viewpoint.is_far &&
-         explainsDensity (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
-                          viewpoint, evidence_, run_)))
+    if (isSeenFromThere (evidenceAt (viewpoint), evidence_) || explains (viewpoint))
       return viewpoint;
     return {};
   }
@@ -375,30 +380,31 @@ private:
   const std::vector<AreaSample>& samples_;
   std::vector<AreaSample> few_samples_; // to compare many viewpoints
   Eigen::AlignedBox3d box_;
+  bool may_be_far_;
 };
 
 } // namespace
 
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, bool is_noisy, const SearchLimits& limits,
-               const EvidenceLimits& evidence, const RunContext& run)
+               const std::vector<AreaSample>& samples, bool is_even, bool may_be_far,
+               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
 {
   constexpr std::size_t FEWEST_PATCHES = 16;
   EvidenceLimits filled = evidence;
   filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
   if (filled.patches < FEWEST_PATCHES)
     return {};
-  const ViewpointSearch search (points, neighbors, samples, limits, filled, run);
-  if (!is_noisy) {
+  const ViewpointSearch search (points, neighbors, samples, limits, filled, may_be_far, run);
+  if (!is_even) {
     const RowEvidence rows = findRows (points, neighbors, limits.samples);
     if (rows.share > limits.rows && !rows.are_straight)
       if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
         return found;
   }
-  const std::size_t least_share = is_noisy ? 1 : 4; // a quarter of the patches
+  const std::size_t least_share = is_even ? 1 : 4; // a quarter of the patches
   if (least_share * filled.patches < evidence.patches || !search.hasSamples () ||
-      (search.spreadOfAreas () <= limits.even) != is_noisy)
+      (search.spreadOfAreas () <= limits.even) != is_even)
     return {};
   return search.find ();
 }

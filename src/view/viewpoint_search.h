@@ -28,30 +28,31 @@ struct SearchLimits
                      ///< scanned along lines. Random points have 0.25, a square raster 0.33
   std::size_t row_directions = 180; ///< tested for such a cloud: one degree apart
   std::size_t by_rows = 4;          ///< best directions, which are refined
-  double explained = 0.75; ///< largest share of that spread left at the best viewpoint; with more,
-                           ///< areas do not come from a view. In scans with noise of 3 spacings,
-                           ///< 0.7 is left
+  double explained = 0.8; ///< largest share of that spread left at the best viewpoint; with more,
+                          ///< areas do not come from a view. In scans with noise of 3 spacings,
+                          ///< 0.7 is left
 
+  double density_regularity = 1.0 / 3.0; ///< of EvidenceLimits, for a place that is not told but
+                                         ///< searched. Right ones have up to 0.31, wrong ones 0.38
+                                         ///< and more
+  double as_good = 0.75; ///< share of what the best viewpoint explains; those that explain more are
+                         ///< compared by their rays: on a plane, many explain as much
   std::size_t samples = 500;    ///< sampled areas; the error of the spread of so many is 6 %
   std::size_t cells = 24;       ///< along each axis of a grid of viewpoints over twice the bounding
                                 ///< box
   std::size_t directions = 100; ///< of farther viewpoints: 20 degrees apart
   std::size_t starts = 24;      ///< best viewpoints by areas, from which descents start
   std::size_t area_evaluations = 200; ///< in each descent by areas
-  std::size_t by_areas = 2;           ///< best of these, which are refined until one is a viewpoint
-  std::size_t compared = 6;           ///< next ones, of which the best by rays is refined
-  std::size_t rounds = 2;             ///< of a refinement, each with new patches
-  std::size_t fits = 6;               ///< after it, each with new patches
-  std::size_t coarse_patches = 32;    ///< of EvidenceLimits::patches, until the first fit
-  std::size_t ray_evaluations = 200;  ///< in each round
+  std::size_t by_rays = 3;         ///< best of these by rays, which are refined until one is right
+  std::size_t rounds = 9;          ///< of a refinement, each with new patches
+  std::size_t coarse_patches = 32; ///< of EvidenceLimits::patches, in the first three rounds
+  std::size_t ray_evaluations = 400; ///< in each round
 
-  /// After each round. Near the right viewpoint, outlines may hide each other, so that all rays are
-  /// near others; not for parallel rays.
-  EvidenceExcess after_round{2.0, 100.0}, after_round_from_far{2.0, 5.0};
-  /// After the first fit, and after later ones, which hardly change the evidence. In six simulated
-  /// scans, right viewpoints had up to 1.5 and 2.3 after the first fit, and below 1 after the
-  /// second; wrong ones up to 1.5 and 12.
-  EvidenceExcess after_first_fit{2.0, 5.0}, after_fit{1.4, 2.0};
+  /// After each of the first three rounds, and after later ones, which hardly change the evidence.
+  /// Near the right viewpoint, outlines may hide each other, so that all rays are near others; not
+  /// for parallel rays. In simulated scans, right viewpoints had up to 1.5 and 2.3 in the middle,
+  /// and below 1 at the end; wrong ones up to 1.5 and 12.
+  EvidenceExcess early{2.0, 100.0}, early_from_far{2.0, 5.0}, late{1.4, 2.0};
 };
 
 /// Finds the viewpoint of a cloud in two steps.
@@ -67,12 +68,13 @@ struct SearchLimits
 /// evidence.
 /// \param neighbors nearest first
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples
-/// \param is_noisy  the points are noisy: only evenly sampled clouds are searched, which need no view
-///     otherwise; without noise, only the others
+/// \param is_even   search evenly sampled clouds only, which need no view but for their noise and
+///     their front; otherwise only the others
+/// \param may_be_far not for even clouds without noise: rasters of heights are even from far away
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, bool is_noisy, const SearchLimits& limits,
-               const EvidenceLimits& evidence, const RunContext& run);
+               const std::vector<AreaSample>& samples, bool is_even, bool may_be_far,
+               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run);
 
 } // namespace pcl::floater

@@ -226,6 +226,77 @@ TEST (FacingChoices, TheViewpointIsFacedFromAnySide)
   }
 }
 
+// Jittered points on the faces of a box, which stands on z = 0; `is_kept` leaves openings.
+Positions
+boxFaces (const Vector3d& size, std::uint64_t seed,
+          const std::function<bool (const Vector3d&)>& is_kept)
+{
+  constexpr double STEP = 0.1;
+  RandomStream random (seed);
+  Positions points;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {0.0, size[axis]})
+      for (double u = 0.5 * STEP; u < size[(axis + 1) % 3]; u += STEP)
+        for (double v = 0.5 * STEP; v < size[(axis + 2) % 3]; v += STEP) {
+          Vector3d p;
+          p[axis] = side;
+          p[(axis + 1) % 3] = u + 0.4 * STEP * (random.uniform () - 0.5);
+          p[(axis + 2) % 3] = v + 0.4 * STEP * (random.uniform () - 0.5);
+          if (is_kept (p))
+            points.push_back (p);
+        }
+  return points;
+}
+
+TEST (FacingChoices, ARoomFacesThePeopleInItAndABoxOutwards)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RandomStream random (100 + seed);
+    const Vector3d size (3.0 + 3.0 * random.uniform (), 2.5 + 2.0 * random.uniform (), 2.5);
+    const double at = 0.4 + random.uniform ();
+    const Direction in = [&size] (const Vector3d& p) { return Vector3d (0.5 * size - p); };
+    const Direction out = [&size] (const Vector3d& p) { return Vector3d (p - 0.5 * size); };
+    const auto isDoor = [at] (const Vector3d& p) {
+      return p.y () == 0.0 && p.z () < 2.0 && p.x () > at && p.x () < at + 0.9;
+    };
+    const Positions room = boxFaces (size, seed, [&] (const Vector3d& p) { return !isDoor (p); });
+    const Report found = expectFacing (room, {}, in, FacingRule::ROOM);
+    EXPECT_LT (found.facing_certainty, 0.9); // a box may have a window
+    expectFacing (room, {Facing::OUTWARDS}, out, FacingRule::BODY);
+    expectFacing (room, {Facing::INWARDS}, in, FacingRule::BODY);
+    expectFacing (boxFaces (size, seed, [] (const Vector3d& p) { return p.z () > 0.0; }), {}, out,
+                  FacingRule::BODY);
+  }
+}
+
+TEST (FacingChoices, InwardsIsTheOppositeOfOutwards)
+{
+  expectFacing (samples::evenSphere (1500), {Facing::INWARDS}, IN, FacingRule::CLOSED);
+  expectFacing (bowl (), {Facing::INWARDS}, IN, FacingRule::BODY);
+  const Positions dome = sheet ([] (double r) { return 0.1 * (1.0 - r * r); });
+  EXPECT_EQ (shareFacing (run (dome, {Facing::INWARDS}), dome, DOWN), 1.0);
+}
+
+// Noise of half the spacing: the rays do not show that it is a scan, but nothing contradicts the
+// place that is told, and connected as seen from there, it would have folds by the hundred.
+TEST (FacingChoices, ANoisyScanFacesThePlaceThatIsTold)
+{
+  constexpr double STEP = 0.03;
+  RandomStream random (7);
+  Positions wall;
+  for (int row = 0; row < 50; ++row)
+    for (int column = 0; column < 50; ++column) {
+      const auto around = [&] (int at) { return STEP * (at + 0.8 * random.uniform ()); };
+      wall.emplace_back (around (column), around (row), 0.5 * STEP * random.normal ());
+    }
+  const Vector3d below (0.7, 0.8, -2.0);
+  const Result found = run (wall, {Facing::AUTO, {}, below});
+  EXPECT_FALSE (found.report.is_view);
+  EXPECT_EQ (partsBy (found, FacingRule::SENSOR), 1U);
+  EXPECT_GT (shareFacing (found, wall, DOWN), 0.8);
+  EXPECT_LT (20 * found.report.check.folds, found.triangles.size ());
+}
+
 // A scan that is connected as its sensor saw it faces the sensor, unless something else decides.
 TEST (FacingChoices, OfASingleScan)
 {

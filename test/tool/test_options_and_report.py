@@ -30,9 +30,10 @@ def test_messages_name_what_was_typed(cloud):
             ("--neigh 4", "there is no option --neigh; did you mean --neighbors or --neighborhood?"),
             ("--frobnicate", "there is no option --frobnicate"),
             ("--" + "x" * 10000, "there is no option --" + "x" * 10000),
-            ("--facing outward", "--facing: 'outward' is none of: auto, outwards, up, viewpoint, normals; did you mean "
-                                 "outwards?"),
-            ("--facing AUTO", "--facing: 'AUTO' is none of: auto, outwards, up, viewpoint, normals; did you mean auto?"),
+            ("--facing outward", "--facing: 'outward' is none of: auto, outwards, up, viewpoint, normals, inwards; "
+                                 "did you mean outwards?"),
+            ("--facing AUTO", "--facing: 'AUTO' is none of: auto, outwards, up, viewpoint, normals, inwards; did you mean "
+                              "auto?"),
             ("-k 20x", "-k: '20x' is not a whole number"),
             ("--neighbors 20x", "--neighbors: '20x' is not a whole number"),
             ("-k 5", "-k must be from 6 to 200"),

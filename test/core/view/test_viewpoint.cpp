@@ -5,7 +5,7 @@
 
 #include "scan_samples.h"
 #include "view/view_method.h"
-#include "view/viewpoint_fit.h"
+#include "view/viewpoint_search.h"
 
 #include <gtest/gtest.h>
 
@@ -75,9 +75,9 @@ TEST_P (RastersAndSeeds, TheViewpointIsFound)
   const std::vector<AreaSample> samples =
       takeAreaSamples (points, planes, settings, SearchLimits{}.samples, 2);
   std::optional<Viewpoint> found;
-  for (const bool is_noisy : {false, true})
+  for (const bool is_even : {false, true})
     if (!found)
-      found = findViewpoint (points, planes.neighbors, samples, is_noisy, {}, {}, 2);
+      found = findViewpoint (points, planes.neighbors, samples, is_even, true, {}, {}, 2);
   ASSERT_TRUE (found);
   if (found->is_far)
     EXPECT_GT (std::abs (found->place.dot (made.viewpoint)), 0.999);
@@ -183,26 +183,41 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   EXPECT_LT (rowsOf (random).share, 0.5);
 }
 
-// The room has a diagonal of 9: a search begins a three hundredth of it away.
-TEST (ViewpointFit, AllRastersAreFittedToTheirPlace)
+// Rows with gentle slopes, which tell the plane of their rays.
+TEST (RowEvidence, OfLinesAcrossGentleWaves)
 {
-  for (const Raster raster :
-       {Raster::CAMERA, Raster::RINGS, Raster::SPHERE, Raster::PARALLEL, Raster::LINES})
-    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-      const Scan scan = samples::scanScene (raster, {0.002, 0.0}, seed);
-      RandomStream random (seed);
-      Viewpoint viewpoint{scan.viewpoint, scan.is_far};
-      const Eigen::Vector3d off (random.normal (), random.normal (), random.normal ());
-      if (scan.is_far)
-        viewpoint.place = (viewpoint.place + 0.01 * off.normalized ()).normalized ();
-      else
-        viewpoint.place += 0.03 * off.normalized ();
-      for (int round = 0; round < 6; ++round)
-        viewpoint = fitViewpoint (scan.points, findRayPatches (scan.points, viewpoint, {}, 1),
-                                  viewpoint, round == 0, 1);
-      EXPECT_LT ((viewpoint.place - scan.viewpoint).norm (), 1e-3)
-          << static_cast<int> (raster) << ", seed " << seed;
-    }
+  Positions waves;
+  for (int row = 0; row < 20; ++row)
+    for (int i = 0; i < 200; ++i)
+      waves.emplace_back (i, 10.0 * row, 8.0 * std::sin (0.05 * i + 0.3 * row));
+  const RowEvidence rows = rowsOf (waves);
+  EXPECT_FALSE (rows.are_straight);
+  EXPECT_GT (std::abs (rows.across.y ()), 0.999);
+}
+
+std::optional<Viewpoint>
+searchEven (const Points& points)
+{
+  const LocalPlanes planes = fitLocalPlanes (points, findNeighbors (points, {}, 2), {}, {}, 2);
+  const std::vector<AreaSample> samples =
+      takeAreaSamples (points, planes, {}, SearchLimits{}.samples, 2);
+  return findViewpoint (points, planes.neighbors, samples, true, false, {}, {}, 2);
+}
+
+// A raster of heights is as even from far away, on either side.
+TEST (ViewpointSearch, FindsNoneOverARasterOfHeights)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RandomStream random (seed);
+    const double phase = 6.0 * random.uniform (), height = 0.1 + 0.1 * random.uniform ();
+    Positions raster;
+    for (int row = 0; row < 96; ++row)
+      for (int column = 0; column < 128; ++column) {
+        const double u = column / 120.0, v = row / 120.0;
+        raster.emplace_back (u, v, height * std::sin (5.0 * u + phase) * std::cos (4.0 * v));
+      }
+    EXPECT_FALSE (searchEven (pointsOf (raster))) << seed;
+  }
 }
 
 } // namespace

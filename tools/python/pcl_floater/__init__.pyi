@@ -78,7 +78,7 @@ def reconstruct(
     largest_hole: float = 0.0,
     largest_hole_length: float = 0.0,
     viewpoint: Union[Literal["auto", "none"], Sequence[float]] = "auto",
-    facing: Literal["auto", "outwards", "up", "viewpoint", "normals"] = "auto",
+    facing: Literal["auto", "outwards", "up", "viewpoint", "normals", "inwards"] = "auto",
     max_edge: float = 0.0,
     max_edge_ratio: float = 0.0,
     min_component: int = 0,

@@ -128,12 +128,14 @@ enum class ViewUse
 enum class Facing
 {
   AUTO,      ///< the first rule that decides: input normals, if used; outwards, if closed; towards
-             ///< the sensor of a single scan; the side that is more visible from outside; up
+             ///< the sensor of a single scan; into a room; the side that is more visible from
+             ///< outside; up
   OUTWARDS,  ///< away from the inside; open sheets: the side to which they bulge
   UP,        ///< towards +z; upright ones towards +y, or +x. Closed components face outwards
   VIEWPOINT, ///< towards the position of the sensor, which must be known. Closed components face
              ///< outwards unless the sensor was inside
-  NORMALS    ///< where the normals of the input point to; they must be oriented
+  NORMALS,   ///< where the normals of the input point to; they must be oriented
+  INWARDS    ///< opposite to OUTWARDS, also if closed: what was seen from within
 };
 
 /// The stages of a run, in order. Each method uses some of them.

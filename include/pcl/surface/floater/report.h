@@ -78,8 +78,9 @@ enum class FacingRule
   SHEET,   ///< both sides are equally visible: it faces up
   NORMALS, ///< most of the normals of the input point to the front
   UP,      ///< it faces up, as requested
-  BULGE, ///< both sides are equally visible; OUTWARDS was requested: the front is the side to which
-         ///< it bulges
+  BULGE, ///< both sides are equally visible; it stands, or OUTWARDS was requested: the front is the
+         ///< side to which it bulges
+  ROOM,  ///< floor, ceiling and walls with openings: it faces the people in it
   COUNT  ///< the number of rules
 };
 
