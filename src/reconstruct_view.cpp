@@ -54,7 +54,9 @@ knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin
   const Viewpoint viewpoint{
       (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
   const EvidenceLimits& evidence = request.limits.view.evidence;
-  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
+  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run) ||
+      (isSensorKnown (sensor_origin) &&
+       mayBeSeenFrom (points.positions, viewpoint, evidence, request.run)))
     return viewpoint;
   return {};
 }
