@@ -78,13 +78,6 @@ public:
     taken_.push_back (&candidate);
   }
 
-  // Accepts a triangle that is oriented like the normals.
-  void start (const Triangle& corners)
-  {
-    occupy (corners);
-    orientation_.join (corners, 0);
-  }
-
   // The accepted doubtful candidates, ordered by their first corners.
   const std::vector<const Candidate*>& takenInOrder ()
   {
@@ -208,69 +201,16 @@ collect (ConsensusBuilder& builder, const CandidateLists& candidates, std::size_
   consensus.seam.swap (builder.seam ());
 }
 
-// Finds free triangles beside a mesh: each corner is on its boundary or has no triangle.
-class Room
-{
-public:
-  Room (const TriangleMesh& mesh, const RunContext& run) : has_room_ (mesh.triangle_of.size (), 0)
-  {
-    ProgressLoop progress (run);
-    for (Index p = 0; p < has_room_.size (); ++p)
-      has_room_[p] = mesh.triangle_of[p] == NONE ? 1 : 0;
-    for (Index t = 0; t < mesh.triangles.size (); ++t) {
-      progress.next ();
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] == NONE)
-          has_room_[mesh.from ({t, side})] = has_room_[mesh.to ({t, side})] = 1;
-    }
-  }
-
-  bool isFor (const Triangle& corners) const
-  {
-    return has_room_[corners[0]] != 0 && has_room_[corners[1]] != 0 && has_room_[corners[2]] != 0;
-  }
-
-private:
-  std::vector<std::uint8_t> has_room_;
-};
-
-// The free candidates. Sure ones become doubtful here.
-std::vector<Candidate>
-findOpen (const CandidateLists& candidates, const TriangleMesh& mesh, const RunContext& run)
-{
-  const Room room (mesh, run);
-  std::vector<Candidate> open;
-  ProgressLoop progress (run);
-  for (const SureTriangle& sure : candidates.sure) {
-    progress.next ();
-    if (room.isFor (sure.corners))
-      open.push_back ({sure.corners, 3, 0, 0.0F, 0.0F});
-  }
-  for (const Candidate& doubtful : candidates.doubtful) {
-    progress.next ();
-    if (room.isFor (doubtful.corners))
-      open.push_back (doubtful);
-  }
-  return open;
-}
-
-std::vector<const Candidate*>
-pointersTo (const std::vector<Candidate>& candidates)
-{
-  std::vector<const Candidate*> pointers;
-  pointers.reserve (candidates.size ());
-  for (const Candidate& candidate : candidates)
-    pointers.push_back (&candidate);
-  return pointers;
-}
-
 } // namespace
 
 Consensus
 buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& candidates,
                 std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
-  std::vector<const Candidate*> doubtful = pointersTo (candidates.doubtful);
+  std::vector<const Candidate*> doubtful;
+  doubtful.reserve (candidates.doubtful.size ());
+  for (const Candidate& candidate : candidates.doubtful)
+    doubtful.push_back (&candidate);
   run.poll ();
   const std::size_t of_three_votes = putInOrder (doubtful);
   run.poll ();
@@ -299,59 +239,6 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& c
   collect (builder, candidates, sure_taken, consensus, run);
   builder.orientation ().turn (normals, run);
   return consensus;
-}
-
-bool
-extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateLists& candidates,
-                 const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,
-                 Consensus& consensus, const RunContext& run)
-{
-  std::vector<Candidate> open = findOpen (candidates, mesh, run);
-  if (open.empty ())
-    return false;
-  for (Candidate& candidate : open)
-    setNormalAgreement (positions, normals, candidate);
-  std::stable_sort (open.begin (), open.end (), [] (const Candidate& a, const Candidate& b) {
-    return a.corners[0] < b.corners[0];
-  });
-  std::vector<const Candidate*> order = pointersTo (open);
-  putInOrder (order);
-  run.poll ();
-  ConsensusBuilder builder (positions, normals);
-  for (const Candidate* candidate : order)
-    builder.watch (candidate->corners);
-  ProgressLoop progress (run, mesh.triangles.size () + order.size ());
-  for (const Triangle& corners : mesh.triangles) {
-    progress.next ();
-    builder.start (corners);
-  }
-  Orientation& orientation = builder.orientation ();
-  orientation.vote (order.data (), order.data () + order.size (), run);
-  for (const Candidate* candidate : order) {
-    progress.next ();
-    builder.offer (*candidate, true);
-  }
-
-  const std::vector<const Candidate*>& taken = builder.takenInOrder ();
-  consensus = {};
-  consensus.triangles.reserve (mesh.triangles.size () + taken.size ());
-  consensus.votes.reserve (mesh.triangles.size () + taken.size ());
-  std::vector<Index>& added_at = consensus.added_at.emplace ();
-  for (const Candidate* candidate : taken)
-    added_at.insert (added_at.end (), candidate->corners.begin (), candidate->corners.end ());
-  auto next = taken.begin ();
-  const auto appendTakenBefore = [&] (Index p) {
-    for (; next != taken.end () && (*next)->corners[0] < p; ++next)
-      append (orientation.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, consensus);
-  };
-  for (const Triangle& corners : mesh.triangles) {
-    appendTakenBefore (corners[0]);
-    append (orientation.turned (corners, 0), 3, consensus);
-  }
-  appendTakenBefore (NONE);
-  consensus.seam.swap (builder.seam ());
-  orientation.turn (normals, run);
-  return true;
 }
 
 } // namespace pcl::floater

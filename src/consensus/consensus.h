@@ -6,8 +6,6 @@
 #include "consensus/candidates.h"
 #include "mesh/triangle_mesh.h"
 
-#include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace pcl::floater {
@@ -20,8 +18,6 @@ struct Consensus
   std::vector<std::uint8_t> votes; ///< of each triangle, 1 to 3
   std::vector<Triangle> seam;      ///< triangles of three votes that contradict the orientation: a
                                    ///< row of them on a one-sided surface
-  std::optional<std::vector<Index>> added_at; ///< extended mesh: corners of the added triangles;
-                                              ///< all other points have at most one fan
 };
 
 /// Accepts candidates greedily, by votes (three first), then by normal agreement. A candidate is
@@ -35,16 +31,15 @@ Consensus
 buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& candidates,
                 std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
-/// Offers free candidates again along the boundary of a mesh. Its components were oriented one by
-/// one; the candidates between two of them first vote on their relative orientation. O(n + m log m)
-/// for m free candidates.
-/// \param mesh      its triangles ordered by their first corners
-/// \param normals   in: oriented like the triangles; out: like the new consensus
-/// \param consensus out: the triangles of the mesh and the accepted candidates
-/// \return false if no candidate is free; then nothing has changed
-bool
-extendConsensus (const std::vector<Eigen::Vector3d>& positions, const CandidateLists& candidates,
-                 const TriangleMesh& mesh, std::vector<Eigen::Vector3f>& normals,
-                 Consensus& consensus, const RunContext& run);
+/// Keeps the fan of most votes around every point, and removes small islands. An island is an open
+/// component with points of a larger component among its nearest neighbours: it lies in a hole of
+/// that one. The result is an oriented manifold whose boundary loops pass each point at most once.
+/// O(n).
+/// \param neighbors       of each point
+/// \param smallest_island smallest kept number of triangles of an island
+/// \throws std::logic_error if the result is no manifold, which would be a bug
+TriangleMesh
+manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
+              const RunContext& run);
 
 } // namespace pcl::floater

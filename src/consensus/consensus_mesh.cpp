@@ -3,7 +3,6 @@
 #include "consensus/consensus_mesh.h"
 
 #include "consensus/consensus.h"
-#include "consensus/manifold_part.h"
 #include "local/planes.h"
 
 #include <utility>
@@ -49,16 +48,9 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   made.normals = std::move (stars.normals);
   stars = {};
   Consensus consensus = buildConsensus (positions, candidates, smoothed, run);
-  made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
-  consensus = {};
-  const bool is_extended =
-      extendConsensus (positions, candidates, made.mesh, smoothed, consensus, run);
   candidates = {};
-  if (is_extended) {
-    made.seam = std::move (consensus.seam);
-    made.mesh = {};
-    made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
-  }
+  made.seam = std::move (consensus.seam);
+  made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
   for (std::size_t p = 0; p < made.normals.size (); ++p)
     if (made.normals[p].dot (smoothed[p]) < 0.0F)
       made.normals[p] = -made.normals[p];

@@ -62,10 +62,10 @@ struct ConsensusMesh
 {
   TriangleMesh mesh;
   std::vector<Eigen::Vector3f> normals; ///< those of the stars, oriented like the mesh
-  std::vector<Triangle> seam; ///< free triangles of three votes that contradict the orientation
+  std::vector<Triangle> seam;           ///< see Consensus
 };
 
-/// Finds candidates, their consensus and its manifold part; then offers the free candidates again.
+/// Finds candidates, their consensus and its manifold part.
 /// O(n + m log m) for m doubtful candidates.
 /// \param positions by which the stars were made
 /// \param neighbors of each point, nearest first

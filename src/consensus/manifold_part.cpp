@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "consensus/manifold_part.h"
+#include "consensus/consensus.h"
 
 #include "core/parallel.h"
 
@@ -18,13 +18,12 @@ class FanPruner
 public:
   FanPruner (Consensus& consensus, std::size_t points)
       : triangles_ (consensus.triangles), votes_ (consensus.votes), kept_ (triangles_.size (), 1),
-        is_extended_ (consensus.added_at.has_value ())
+        around_ (makeCsrLists (points, [this] (const auto& emit) {
+          for (Index t = 0; t < triangles_.size (); ++t)
+            for (const Index p : triangles_[t])
+              emit (p, t);
+        }))
   {
-    std::vector<std::uint8_t> is_listed (points, is_extended_ ? 0 : 1);
-    if (is_extended_)
-      for (const Index p : *consensus.added_at)
-        is_listed[p] = 1;
-    listAround (is_listed);
   }
 
   void prune (const RunContext& run)
@@ -34,8 +33,6 @@ public:
     std::set<Index> points = pointsToPrune (run);
     if (points.empty ())
       return;
-    if (is_extended_)
-      listAround (std::vector<std::uint8_t> (around_.rows (), 1));
     ProgressLoop progress (run);
     while (!points.empty ()) {
       dirty_.clear ();
@@ -59,17 +56,6 @@ public:
   }
 
 private:
-  // Lists the triangles around some points: the only ones that may have several fans at first.
-  void listAround (const std::vector<std::uint8_t>& is_listed)
-  {
-    around_ = makeCsrLists (is_listed.size (), [&] (const auto& emit) {
-      for (Index t = 0; t < triangles_.size (); ++t)
-        for (const Index p : triangles_[t])
-          if (is_listed[p] != 0)
-            emit (p, t);
-    });
-  }
-
   // Points whose triangles are not just one fan.
   std::set<Index> pointsToPrune (const RunContext& run) const
   {
@@ -208,8 +194,7 @@ private:
   std::vector<Triangle>& triangles_;
   const std::vector<std::uint8_t>& votes_;
   std::vector<std::uint8_t> kept_;
-  bool is_extended_;
-  CsrLists around_;
+  const CsrLists around_; // of each point, its triangles
   std::vector<Spoke> ring_;
   std::vector<Index> dirty_;
 };

@@ -64,24 +64,14 @@ struct MeshExamination
   }
 };
 
-/// Examines triangles only by their corners, the positions and the local spacings. Any input is
-/// allowed. A triangle with a repeated or invalid corner counts as one non-manifold edge and as
-/// degenerate, and is otherwise ignored. Two triangles on the same three points, back to back, make
-/// their corners non-manifold.
-///
-/// Genus and loops are meaningful only if isManifold (). Components are connected by edges, but
-/// BoundaryLoop::component and component_points count components that share a vertex as one. Folds:
-/// see isFold. Loops: see measureLoop ().
-///
-/// O(n), on all threads; the result does not depend on their number. 0.2 microseconds of one thread
-/// per point. Temporarily 12 bytes per point if consecutive points and triangles are near each
-/// other, 28 if the triangles are in random order, up to 76 if the points are.
-/// \param triangles corners as indices of `points`
+/// Examines a mesh: its neighbours are tested against its triangles. If they do not fit, or the
+/// triangles around a point are not one fan, there are no components, no loops, and no genus. Folds:
+/// see isFold. Loops: see measureLoop (). O(n), on all threads; the result does not depend on their
+/// number. Temporarily 12 bytes per point.
 /// \param spacing local spacing of each point
 MeshExamination
-checkMesh (const std::vector<Triangle>& triangles, const Points& points,
-           const std::vector<float>& spacing, const RunContext& run,
-           const CheckLimits& limits = {});
+checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
+           const RunContext& run, const CheckLimits& limits = {});
 
 /// Adds the self-intersections and their positions to the result of checkMesh (); nothing if the
 /// mesh is no manifold. See findSelfIntersections. Exact for the scaled positions, which equal

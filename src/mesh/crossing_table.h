@@ -6,7 +6,9 @@
 #include "mesh/box_tree.h"
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_mesh.h"
+#include "mesh/vertex_stars.h"
 
+#include <algorithm>
 #include <unordered_map>
 #include <vector>
 
@@ -19,7 +21,21 @@ class CrossingTable
 public:
   /// \param pairs all pairs of the mesh (see findSelfIntersections)
   CrossingTable (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<CrossingPair>& pairs, const RunContext& run);
+                 const std::vector<CrossingPair>& pairs, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions),
+        order_ (orderByPoints (mesh.triangles, positions.size ())), place_ (order_.size ()),
+        tree_ (
+            order_.size (),
+            [this] (std::size_t i) { return boxOf (mesh_.triangles[order_[i]], positions_); }, run),
+        pairs_ (pairs.size ())
+  {
+    for (Index i = 0; i < order_.size (); ++i)
+      place_[order_[i]] = i;
+    for (const CrossingPair& pair : pairs) {
+      partners_[pair.first].push_back (pair.second);
+      partners_[pair.second].push_back (pair.first);
+    }
+  }
 
   std::size_t pairs () const { return pairs_; }
 
@@ -28,7 +44,14 @@ public:
   std::size_t tests () const { return tests_; }
 
   /// Triangles that cross others, ascending.
-  std::vector<Index> crossing () const;
+  std::vector<Index> crossing () const
+  {
+    std::vector<Index> triangles;
+    for (const auto& [t, partners] : partners_)
+      triangles.push_back (t);
+    std::sort (triangles.begin (), triangles.end ());
+    return triangles;
+  }
 
   bool isCrossing (Index t) const { return partners_.count (t) != 0; }
 
@@ -41,22 +64,97 @@ public:
 
   /// Number of pairs with one of these triangles.
   /// \param triangles ascending
-  long pairsOf (const std::vector<Index>& triangles) const;
+  long pairsOf (const std::vector<Index>& triangles) const
+  {
+    long pairs = 0;
+    for (const Index t : triangles)
+      if (const std::vector<Index>* const partners = partnersOf (t))
+        pairs += countPairs (t, *partners, triangles);
+    return pairs;
+  }
 
   /// Number of pairs added by a change, minus those removed. Exact below `limit`; otherwise any
   /// number from `limit` on.
   /// \param changed triangles, ascending; followed by accept or reject
-  long tryChange (const std::vector<Index>& changed, long limit);
+  long tryChange (const std::vector<Index>& changed, long limit)
+  {
+    renewBoxes (changed);
+    long change = -pairsOf (changed);
+    std::vector<Index> partners;
+    for (const Index t : changed) {
+      if (change >= limit)
+        break;
+      findPartners (t, partners);
+      change += countPairs (t, partners, changed);
+    }
+    return change;
+  }
 
   /// Keeps the last change.
-  void accept (const std::vector<Index>& changed);
+  void accept (const std::vector<Index>& changed)
+  {
+    for (const Index t : changed) {
+      const auto known = partners_.find (t);
+      if (known == partners_.end ())
+        continue;
+      for (const Index u : known->second) {
+        const auto others = partners_.find (u);
+        others->second.erase (std::find (others->second.begin (), others->second.end (), t));
+        if (others->second.empty ())
+          partners_.erase (others);
+        --pairs_;
+      }
+      partners_.erase (t);
+    }
+    std::vector<Index> partners;
+    for (const Index t : changed) {
+      findPartners (t, partners);
+      for (const Index u : partners)
+        if (t < u || !contains (changed, u)) {
+          partners_[t].push_back (u);
+          partners_[u].push_back (t);
+          ++pairs_;
+        }
+    }
+  }
 
   /// Call it after the last change was undone in the mesh.
   void reject (const std::vector<Index>& changed) { renewBoxes (changed); }
 
 private:
-  void renewBoxes (const std::vector<Index>& changed);
-  void findPartners (Index t, std::vector<Index>& partners);
+  static bool contains (const std::vector<Index>& ascending, Index t)
+  {
+    return std::binary_search (ascending.begin (), ascending.end (), t);
+  }
+
+  // A pair of two changed triangles is counted at the smaller one.
+  static long countPairs (Index t, const std::vector<Index>& partners,
+                          const std::vector<Index>& changed)
+  {
+    return std::count_if (partners.begin (), partners.end (),
+                          [&] (Index u) { return t < u || !contains (changed, u); });
+  }
+
+  void renewBoxes (const std::vector<Index>& changed)
+  {
+    for (const Index t : changed)
+      tree_.set (place_[t], boxOf (mesh_.triangles[t], positions_));
+  }
+
+  void findPartners (Index t, std::vector<Index>& partners)
+  {
+    partners.clear ();
+    std::size_t tests = 0, exact_tests = 0;
+    const Triangle& own = mesh_.triangles[t];
+    tree_.forOverlaps (boxOf (own, positions_), [&] (std::size_t i) {
+      const Index u = order_[i];
+      ++tests;
+      if (u != t && doCross (own, mesh_.triangles[u], positions_, &exact_tests))
+        partners.push_back (u);
+    });
+    constexpr std::size_t PER_EXACT = 9; // simple tests in the additional time of an exact test
+    tests_ += tests + PER_EXACT * exact_tests;
+  }
 
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;

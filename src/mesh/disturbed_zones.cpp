@@ -102,8 +102,6 @@ public:
       for (const Index p : loop)
         zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
     widen (rings);
-    takeSmallPieces ();
-    takeEnclosed ();
     connect ();
     return std::move (zones_);
   }
@@ -216,12 +214,6 @@ private:
 
   bool isFree (Index p) const { return zones_.is_free[p] != 0; }
 
-  bool hasFree (Index t) const
-  {
-    const Triangle& c = mesh_.triangles[t];
-    return isFree (c[0]) || isFree (c[1]) || isFree (c[2]);
-  }
-
   void makeFree (Index p)
   {
     if (isFree (p) || zones_.is_boundary[p] != 0)
@@ -249,54 +241,6 @@ private:
     for (int ring = 0; ring < rings; ++ring)
       for (const std::size_t last = free_.size (); first < last; ++first)
         forEachAround (free_[first], [this] (Index q) { makeFree (q); });
-  }
-
-  // A few triangles between free points tell no side reliably.
-  void takeSmallPieces ()
-  {
-    std::set<Index> seen; // triangles
-    std::vector<Index> fan;
-    for (std::size_t next = 0; next < free_.size ();) { // their number grows
-      mesh_.fan (free_[next++], fan);
-      for (const Index first : fan)
-        for (const Index t : mesh_.neighbors[first])
-          if (t != NONE && !hasFree (t) && seen.insert (t).second)
-            takeIfSmall (t);
-    }
-  }
-
-  void takeIfSmall (Index triangle)
-  {
-    std::vector<Index> piece{triangle};
-    std::set<Index> inside{triangle};
-    for (std::size_t i = 0; i < piece.size (); ++i)
-      for (const Index u : mesh_.neighbors[piece[i]])
-        if (u != NONE && !hasFree (u) && inside.insert (u).second) {
-          piece.push_back (u);
-          if (piece.size () >= limits_.small_piece)
-            return;
-        }
-    for (const Index t : piece)
-      for (const Index p : mesh_.triangles[t])
-        makeFree (p);
-  }
-
-  // A point all of whose triangles have a free corner has no frame, nor has its boundary.
-  void takeEnclosed ()
-  {
-    std::vector<Index> fan, around;
-    for (std::size_t next = 0; next < free_.size ();) { // their number grows
-      mesh_.fan (free_[next++], fan);
-      for (const Index t : fan)
-        for (const Index q : mesh_.triangles[t]) {
-          mesh_.fan (q, around);
-          if (!isFree (q) && std::all_of (around.begin (), around.end (),
-                                          [this] (Index u) { return hasFree (u); })) {
-            zones_.is_boundary[q] = 0;
-            makeFree (q);
-          }
-        }
-    }
   }
 
   // Zones with something wrong in them; the others are not free any more.

@@ -24,7 +24,6 @@ struct DisturbanceLimits
                                 ///< bodies 0.6 and more
   bool closes_gaps = true;      ///< false: no boundary loop counts as a gap
   std::size_t small_loop = 5;   ///< points; a loop of no more is no opening
-  std::size_t small_piece = 32; ///< triangles; fewer between zones belong to them
 };
 
 /// Free points, whose triangles are to be made anew.

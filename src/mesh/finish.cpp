@@ -24,7 +24,7 @@ repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   orientNormals (mesh, positions, normals, run);
   const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
   run.beginStep (AFTER_INSERTION);
-  if (settings.insert_points && isAnyMissing (mesh))
+  if (settings.insert_points)
     insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)

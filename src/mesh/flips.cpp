@@ -4,17 +4,16 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "mesh/mesh_blocks.h"
 #include "mesh/vertex_stars.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace pcl::floater {
 namespace {
 constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
 constexpr std::size_t EDGES_PER_POLL = 256;
+constexpr std::size_t TRIANGLES_PER_TASK = 8192; // worth a cache of costs
 } // namespace
 
 void
@@ -94,11 +93,23 @@ EdgeFlipper::run ()
   return change;
 }
 
+bool
+EdgeFlipper::mayImprove (MeshEdge e) const
+{
+  const MeshEdge m = mesh_.mate (e);
+  if (m.triangle == NONE)
+    return false;
+  const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
+  const TriangleCost::Value cab = cost_ (c, a, b), dba = cost_ (d, b, a);
+  return cab.unit_normal.dot (dba.unit_normal) < 0.0 ||
+         cost_ (c, a, d).cost + cost_ (d, b, c).cost < cab.cost + dba.cost;
+}
+
 double
 EdgeFlipper::changeByFlip (MeshEdge e) const
 {
   const MeshEdge m = mesh_.mate (e);
-  if (m.triangle == NONE || !mesh_.isFree (e.triangle) || !mesh_.isFree (m.triangle))
+  if (m.triangle == NONE)
     return 0.0;
   const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
   const TriangleCost::Value now_cab = cost_ (c, a, b), now_dba = cost_ (d, b, a);
@@ -131,50 +142,29 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
   return total_then - total;
 }
 
-namespace {
-// Flips the edges chosen by `is_chosen`, and others as a consequence.
-template <typename IsChosen>
-std::size_t
-flipChosen (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run,
-            const IsChosen& is_chosen)
-{
-  CachedCost cached (cost);
-  EdgeFlipper flipper (mesh, cached, run);
-  for (auto t = static_cast<Index> (mesh.triangles.size ()); t-- > 0;)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index u = mesh.neighbors[t][side];
-      if (u != NONE && t < u && is_chosen (t, u))
-        flipper.push ({t, side});
-    }
-  flipper.run ();
-  return flipper.flips ();
-}
-} // namespace
-
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
 {
-  const auto isAny = [] (Index, Index) { return true; };
-  if (!mesh.is_fixed.empty () || !mesh.is_partial.empty ())
-    return flipChosen (mesh, cost, run, isAny);
-  const MeshBlocks blocks (mesh, run);
-  if (blocks.count () <= 1)
-    return flipChosen (mesh, cost, run, isAny);
-  // Triangles of one block, away from its ends.
-  std::vector<std::uint8_t> is_free (mesh.triangles.size ());
-  parallelRanges (run, is_free.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t)
-      is_free[t] = blocks.isFree (mesh, static_cast<Index> (t)) ? 1 : 0;
+  const std::size_t count = mesh.triangles.size ();
+  std::vector<std::vector<MeshEdge>> found ((count + TRIANGLES_PER_TASK - 1) / TRIANGLES_PER_TASK);
+  parallelTasks (run, found.size (), [&] (std::size_t task) {
+    CachedCost cached (cost);
+    const EdgeFlipper flipper (mesh, cached, run);
+    const auto last = static_cast<Index> (std::min (count, (task + 1) * TRIANGLES_PER_TASK));
+    for (auto t = static_cast<Index> (task * TRIANGLES_PER_TASK); t < last; ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index u = mesh.neighbors[t][side];
+        if (u != NONE && t < u && flipper.mayImprove ({t, side}))
+          found[task].push_back ({t, side});
+      }
   });
-  std::atomic<std::size_t> flips{0};
-  parallelTasks (run, blocks.count (), [&] (std::size_t b) {
-    MeshBlock block = blocks.cutOut (mesh, b);
-    flips += flipChosen (block.mesh, cost.countedFrom (block.first), run.withThreads (1), isAny);
-    blocks.putBack (block, b, mesh);
-  });
-  // The free triangles have changed, but not which ones are free.
-  return flips + flipChosen (mesh, cost, run,
-                             [&] (Index t, Index u) { return is_free[t] == 0 || is_free[u] == 0; });
+  CachedCost cached (cost);
+  EdgeFlipper flipper (mesh, cached, run);
+  for (auto task = found.rbegin (); task != found.rend (); ++task)
+    for (auto e = task->rbegin (); e != task->rend (); ++e)
+      flipper.push (*e);
+  flipper.run ();
+  return flipper.flips ();
 }
 
 } // namespace pcl::floater

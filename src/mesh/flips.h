@@ -49,6 +49,9 @@ public:
 
   std::size_t flips () const { return flips_; }
 
+  /// False for edges whose flip cannot lower the cost, whatever is beside their triangles.
+  bool mayImprove (MeshEdge e) const;
+
 private:
   // Change of cost by the flip of an edge; 0 if it is not allowed or lowers nothing.
   double changeByFlip (MeshEdge e) const;
@@ -60,9 +63,8 @@ private:
   std::size_t flips_ = 0;
 };
 
-/// Flips edges of the whole mesh (see EdgeFlipper): first within blocks, on all threads, then
-/// between them. Keeps boundary edges. In a submesh, uses one thread and keeps fixed triangles.
-/// O(n) in practice.
+/// Flips edges of the whole mesh (see EdgeFlipper), but those of the boundary. Few edges are
+/// flipped: those to begin with are found on all threads. O(n) in practice.
 /// \return number of flips
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run);

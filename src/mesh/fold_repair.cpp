@@ -5,25 +5,43 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "mesh/mesh_blocks.h"
+#include "mesh/vertex_mover.h"
 
 #include <algorithm>
-#include <atomic>
-#include <functional>
+#include <cmath>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
-// Nearest neighbours of the points of a block, within the block and numbered in it.
-CsrLists
-neighborsWithin (const CsrLists& neighbors, Index first, Index last)
+constexpr std::uint8_t NO_PLACE = 255; // rank after all kicks have failed
+
+Eigen::Vector3d
+areaVectorOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, Index t)
 {
-  return makeCsrLists (last - first, [&] (const auto& emit) {
-    for (Index p = first; p < last; ++p)
-      for (const Index q : neighbors.row (p))
-        if (q >= first && q < last)
-          emit (p - first, q - first);
+  const auto& [a, b, c] = mesh.triangles[t];
+  return areaVector (positions[a], positions[b], positions[c]);
+}
+
+// The corners of bad triangles, ascending.
+std::vector<Index>
+findBadVertices (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+                 const TriangleCost& cost, const RunContext& run)
+{
+  std::vector<std::uint8_t> is_bad (mesh.triangles.size ());
+  parallelRanges (run, is_bad.size (), [&] (std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Index> (first); t < last; ++t) {
+      const bool is = isBad (mesh, cost, t, [&] (Index u) -> Eigen::Vector3d {
+        return areaVectorOf (mesh, positions, u);
+      });
+      is_bad[t] = is ? 1 : 0;
+    }
   });
+  std::vector<Index> vertices;
+  for (Index t = 0; t < is_bad.size (); ++t)
+    if (is_bad[t] != 0)
+      vertices.insert (vertices.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+  sortUnique (vertices);
+  return vertices;
 }
 
 // The corners of the triangles at some edges.
@@ -38,80 +56,199 @@ verticesAt (const std::vector<MeshEdge>& edges, const TriangleMesh& mesh)
   return vertices;
 }
 
-// Number of allowed and of requested triangle costs.
-struct Costs
+// Moves and kicks vertices, see moveVertices.
+class VertexRepair
 {
-  std::size_t most;
-  std::atomic<std::size_t> asked{0};
-
-  std::size_t left () const { return most - std::min (most, asked.load ()); }
-
-  // The share of a block, by its vertices to move.
-  std::size_t share (std::size_t vertices, std::size_t of_all) const
+public:
+  VertexRepair (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
+                const RepairLimits& limits, const RunContext& run)
+      : mesh_ (mesh), limits_ (limits), run_ (run),
+        mover_ (mesh, neighbors, cost, limits.largest_fan, run)
   {
-    return static_cast<std::size_t> (static_cast<double> (most) * static_cast<double> (vertices) /
-                                     static_cast<double> (of_all));
   }
+
+  // Moves these vertices, if they are bad, and those around them.
+  // \param most_costs number of requested costs at which moves end
+  // \return number of moves
+  std::size_t moveAll (std::vector<Index> vertices, std::size_t most_costs)
+  {
+    most_costs_ = cost_.asked () + most_costs;
+    std::size_t moves = 0;
+    keepThoseToMove (vertices);
+    for (int pass = 0; pass < limits_.passes && !vertices.empty (); ++pass) {
+      mover_.dirty ().clear ();
+      ProgressLoop progress (run_, vertices.size ());
+      for (Index v : vertices) {
+        progress.next ();
+        if (isSpent ())
+          return moves;
+        mover_.start ();
+        moves += mover_.move (v, limits_.places) < 0.0 ? 1 : 0;
+      }
+      vertices.swap (mover_.dirty ());
+      sortUnique (vertices);
+      keepThoseToMove (vertices);
+    }
+    return moves;
+  }
+
+  // Kicks the vertices at folds among these, within the limits.
+  // \return number of kicks that were kept
+  std::size_t kickAll (std::vector<Index> vertices)
+  {
+    std::size_t kept = 0;
+    next_rank_.assign (mesh_.triangle_of.size (), 0);
+    kicks_left_ = mesh_.triangle_of.size () / limits_.points_per_kick + limits_.kicks;
+    most_costs_ = cost_.asked () + std::max (limits_.fewest_costs,
+                                             limits_.costs_of_kicks * mesh_.triangle_of.size ());
+    if (isSpent ())
+      return 0;
+    const std::size_t kicks = kicks_left_;
+    ProgressLoop progress (run_, kicks);
+    while (!vertices.empty ()) {
+      const std::size_t share = std::min (limits_.kicks, 1 + kicks_left_ / vertices.size ());
+      std::vector<Index> again;
+      for (Index v : vertices) {
+        progress.reach (kicks - kicks_left_);
+        if (!isAtFold (v))
+          continue;
+        if (kick (v, share)) {
+          ++kept;
+          allowKicksAround (again);
+        }
+        else if (next_rank_[v] != NO_PLACE)
+          again.push_back (v);
+        if (kicks_left_ == 0 || isSpent ())
+          return kept;
+      }
+      sortUnique (again);
+      vertices.swap (again);
+    }
+    return kept;
+  }
+
+private:
+  bool isBadTriangle (Index t)
+  {
+    return isBad (mesh_, cost_.plain (), t, [this] (Index u) -> Eigen::Vector3d {
+      return cost_ (mesh_.triangles[u]).unit_normal;
+    });
+  }
+
+  void keepThoseToMove (std::vector<Index>& vertices)
+  {
+    ProgressLoop progress (run_);
+    vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
+                                    [&] (Index v) {
+                                      progress.next ();
+                                      return !isToMove (v);
+                                    }),
+                    vertices.end ());
+  }
+
+  bool isToMove (Index v)
+  {
+    mesh_.fan (v, fan_);
+    return std::any_of (fan_.begin (), fan_.end (), [this] (Index t) { return isBadTriangle (t); });
+  }
+
+  // True if an edge of a triangle around a vertex is folded.
+  bool isAtFold (Index v)
+  {
+    mesh_.fan (v, fan_);
+    for (Index t : fan_) {
+      const Eigen::Vector3d normal = cost_ (mesh_.triangles[t]).unit_normal;
+      for (Index u : mesh_.neighbors[t])
+        if (u != NONE && isFold (normal, cost_ (mesh_.triangles[u]).unit_normal))
+          return true;
+    }
+    return false;
+  }
+
+  // Kicks a vertex to its next triangles until one is kept. After the flips, several of them may be
+  // equivalent to each other or to the start: the vertex then has the same neighbours.
+  bool kick (Index v, std::size_t times)
+  {
+    rings_.clear ();
+    noteRing (v);
+    const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.kicks);
+    for (; times > 0 && kicks_left_ > 0 && next_rank_[v] < places.size (); ++next_rank_[v]) {
+      run_.poll ();
+      mover_.start ();
+      mover_.dirty ().clear ();
+      const double change = mover_.moveTo (v, places[next_rank_[v]]);
+      if (noteRing (v)) {
+        --times;
+        --kicks_left_;
+        if (change + moveAfterKick (change) < -VertexMover::IMPROVES)
+          return true;
+      }
+      mover_.undo ();
+    }
+    if (next_rank_[v] >= places.size ())
+      next_rank_[v] = NO_PLACE;
+    return false;
+  }
+
+  // Moves the vertices around after a kick. Returns the change of cost by these moves.
+  double moveAfterKick (double change_by_kick)
+  {
+    double change = 0.0;
+    for (int pass = 0; pass < limits_.passes_after_kick; ++pass) {
+      around_.swap (mover_.dirty ());
+      mover_.dirty ().clear ();
+      sortUnique (around_);
+      for (Index w : around_) {
+        if (!isToMove (w))
+          continue;
+        change += mover_.move (w, limits_.places_after_kick);
+        if (std::abs (change_by_kick + change) <= VertexMover::IMPROVES)
+          return change; // the mesh is as before the kick
+      }
+    }
+    return change;
+  }
+
+  // Stores the neighbours of a vertex. Returns false if they are known already.
+  bool noteRing (Index v)
+  {
+    mesh_.fan (v, fan_);
+    std::vector<Index> ring;
+    for (Index t : fan_)
+      ring.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
+    std::sort (ring.begin (), ring.end ());
+    if (std::find (rings_.begin (), rings_.end (), ring) != rings_.end ())
+      return false;
+    rings_.push_back (std::move (ring));
+    return true;
+  }
+
+  // After a successful kick: the corners of all changed triangles may be kicked again.
+  void allowKicksAround (std::vector<Index>& again)
+  {
+    changed_.clear ();
+    mover_.journal ().appendTriangles (changed_);
+    sortUnique (changed_);
+    for (Index t : changed_)
+      for (Index p : mesh_.triangles[t]) {
+        next_rank_[p] = 0;
+        again.push_back (p);
+      }
+  }
+
+  bool isSpent () const { return cost_.asked () >= most_costs_; }
+
+  TriangleMesh& mesh_;
+  const RepairLimits& limits_;
+  RunContext run_;
+  VertexMover mover_;
+  CachedCost& cost_ = mover_.cost ();
+  std::vector<std::uint8_t> next_rank_; // per point: rank of its next kick
+  std::size_t kicks_left_ = 0;
+  std::size_t most_costs_ = 0;            // limit for kicks
+  std::vector<std::vector<Index>> rings_; // neighbours at the triangles tried so far
+  std::vector<Index> fan_, around_, changed_;
 };
-
-// Moves vertices of a block, numbered in it. Reports which of them are done: their triangles are
-// free, and their neighbours are all in the block.
-std::size_t
-moveInBlock (MeshBlock& block, const CsrLists& all_neighbors,
-             const std::vector<RepairTarget>& targets, const std::vector<Index>& vertices,
-             const TriangleCost& cost, const RepairLimits& limits, const RunContext& run,
-             std::size_t most_costs, Costs& costs,
-             const std::function<void (Index v, bool is_whole)>& tell)
-{
-  const CsrLists neighbors =
-      neighborsWithin (all_neighbors, block.first,
-                       block.first + static_cast<Index> (block.mesh.triangle_of.size ()));
-  VertexRepair repair (block.mesh, neighbors, targets, cost, limits, run);
-  const std::size_t moves = repair.moveAll (vertices, most_costs);
-  costs.asked += repair.costs ();
-  std::vector<Index> fan;
-  for (const Index v : vertices) {
-    block.mesh.fan (v, fan);
-    tell (v, neighbors.row (v).size () == all_neighbors.row (block.first + v).size () &&
-                 std::all_of (fan.begin (), fan.end (),
-                              [&block] (Index t) { return block.mesh.isFree (t); }));
-  }
-  return moves;
-}
-
-// Moves vertices, ascending, in blocks of the mesh if there are several. Removes those that are
-// done from the list. Returns the number of moves.
-std::size_t
-moveInBlocks (TriangleMesh& mesh, const CsrLists& neighbors,
-              const std::vector<RepairTarget>& targets, const TriangleCost& cost,
-              const RepairLimits& limits, const RunContext& run, std::vector<Index>& vertices,
-              Costs& costs)
-{
-  const MeshBlocks blocks (mesh, run);
-  if (vertices.empty () || blocks.count () == 1)
-    return 0;
-  std::vector<std::uint8_t> is_done (targets.size (), 0);
-  std::atomic<std::size_t> moves{0};
-  parallelTasks (run, blocks.count (), [&] (std::size_t b) {
-    const Index first = blocks.first (b), last = blocks.last (b);
-    std::vector<Index> inside (std::lower_bound (vertices.begin (), vertices.end (), first),
-                               std::lower_bound (vertices.begin (), vertices.end (), last));
-    if (inside.empty ())
-      return;
-    for (Index& v : inside)
-      v -= first;
-    MeshBlock block = blocks.cutOut (mesh, b);
-    moves += moveInBlock (block, neighbors, {targets.begin () + first, targets.begin () + last},
-                          inside, cost.countedFrom (first), limits, run.withThreads (1),
-                          costs.share (inside.size (), vertices.size ()), costs,
-                          [&] (Index v, bool is) { is_done[first + v] = is ? 1 : 0; });
-    blocks.putBack (block, b, mesh);
-  });
-  vertices.erase (std::remove_if (vertices.begin (), vertices.end (),
-                                  [&] (Index v) { return is_done[v] != 0; }),
-                  vertices.end ());
-  return moves;
-}
 
 } // namespace
 
@@ -119,18 +256,14 @@ std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
            const RunContext& run)
 {
-  const auto areaVectorOf = [&] (Index t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    return areaVector (positions[a], positions[b], positions[c]);
-  };
   // Sides of each triangle at which it is folded against one of a higher index, as bits.
   std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
   parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
     for (auto t = static_cast<Index> (first); t < last; ++t) {
-      const Eigen::Vector3d own = areaVectorOf (t);
+      const Eigen::Vector3d own = areaVectorOf (mesh, positions, t);
       for (std::uint8_t side = 0; side < 3; ++side) {
         const Index u = mesh.neighbors[t][side];
-        if (u != NONE && t < u && isFold (own, areaVectorOf (u)))
+        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh, positions, u)))
           sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
       }
     }
@@ -148,20 +281,11 @@ moveVertices (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost&
               const std::vector<Eigen::Vector3d>& positions, const RepairLimits& limits,
               const RunContext& run)
 {
-  const std::vector<RepairTarget> targets =
-      findRepairTargets (mesh, positions, cost, limits.patch_points, run);
-  std::vector<Index> bad;
-  for (Index v = 0; v < targets.size (); ++v)
-    if (targets[v] == RepairTarget::BAD || targets[v] == RepairTarget::SCATTERED)
-      bad.push_back (v);
-  Costs costs{std::max (limits.fewest_costs, limits.costs_of_moves * targets.size ())};
-  const bool is_whole = mesh.is_fixed.empty () && mesh.is_partial.empty ();
-  const std::size_t moves_in_blocks =
-      is_whole ? moveInBlocks (mesh, neighbors, targets, cost, limits, run, bad, costs) : 0;
-  VertexRepair repair (mesh, neighbors, targets, cost, limits, run);
-  const std::size_t moves = repair.moveAll (std::move (bad), costs.left ());
-  const std::size_t kicks = repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
-  return moves_in_blocks + moves + kicks;
+  VertexRepair repair (mesh, neighbors, cost, limits, run);
+  const std::size_t moves = repair.moveAll (
+      findBadVertices (mesh, positions, cost, run),
+      std::max (limits.fewest_costs, limits.costs_of_moves * mesh.triangle_of.size ()));
+  return moves + repair.kickAll (verticesAt (findFolds (mesh, positions, run), mesh));
 }
 
 } // namespace pcl::floater

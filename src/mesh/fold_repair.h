@@ -4,10 +4,9 @@
 #pragma once
 
 #include "core/order_statistics.h"
+#include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
-#include "mesh/vertex_repair.h"
 
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -25,6 +24,26 @@ addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
   patch.swap (wider);
 }
 
+/// Limits of the search, to limit its time: larger values may remove a few more folds. Chosen by
+/// hand. With fans of 16, moves at sharp edges left triangles that cross.
+struct RepairLimits
+{
+  std::size_t largest_fan = 12; ///< triangles around a vertex that is moved
+  int passes = 12;              ///< over the vertices to move; few are left after five
+  std::size_t places = 4;       ///< cheapest triangles in which a vertex to move is tried
+  std::size_t kicks = 16;       ///< triangles to which a vertex of a fold is kicked; at most 255
+  std::size_t points_per_kick = 16;  ///< points of the mesh for each kick
+  int passes_after_kick = 2;         ///< moves of the vertices around
+  std::size_t places_after_kick = 3; ///< `places` in these moves
+
+  /// Maximum number of requested costs (CachedCost::asked), per point of the mesh and minimum: by
+  /// moves, and by kicks. Each takes some 40 nanoseconds in total, and all else
+  /// for an ordinary point 10 microseconds, so a mesh takes at most six times as long with the
+  /// repair. Laser scans of trees and rooms request up to 560 and 930, points in nearly coinciding
+  /// pairs 3000 and 860 without a limit.
+  std::size_t costs_of_moves = 600, costs_of_kicks = 1000, fewest_costs = 5'000'000;
+};
+
 /// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).
 std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -34,7 +53,7 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// their order or where they were connected to another sheet. No single flip lowers the cost there.
 /// Vertices are removed and reinserted (see VertexMover), in two steps:
 ///
-/// Moves: the corners of bad triangles (see RepairTarget) are moved to where they cost least. Each
+/// Moves: the corners of bad triangles (see isBad) are moved to where they cost least. Each
 /// further pass processes the old and new neighbours of the moved vertices.
 ///
 /// Kicks: a vertex at a remaining fold is moved to a triangle of higher cost, and then the vertices
@@ -45,8 +64,7 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 /// vertex whose kicks all failed is kicked again only after a triangle around it has changed.
 ///
 /// Every kept step lowers the cost of the mesh. The boundary stays. O(n) at worst, O(bad vertices)
-/// if few are bad. A whole mesh is repaired in blocks first, on all threads, then between them; a
-/// submesh in one thread, without its fixed triangles.
+/// if few are bad.
 /// \param neighbors nearest neighbours of each point, candidates for a vertex's new neighbours
 /// \return number of moves and kicks that were kept
 std::size_t

@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -142,35 +141,6 @@ private:
   std::set<Edge> new_edges_;
 };
 
-// Connects the last triangles of a mesh with each other and with the boundary of the others. Much
-// faster than TriangleMesh::connect ().
-void
-connectLast (std::size_t count, TriangleMesh& mesh)
-{
-  std::map<Edge, MeshEdge> open; // by (from, to)
-  const auto first = static_cast<Index> (mesh.triangles.size () - count);
-  mesh.neighbors.resize (mesh.triangles.size (), {NONE, NONE, NONE});
-  for (Index t = first; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const MeshEdge e{t, side};
-      mesh.triangle_of[mesh.triangles[t][side]] = t;
-      if (!open.emplace (Edge{mesh.from (e), mesh.to (e)}, e).second)
-        throw std::logic_error ("a hole was filled by triangles that do not fit");
-    }
-  const auto link = [&] (MeshEdge e) {
-    if (const auto found = open.find ({mesh.to (e), mesh.from (e)}); found != open.end ()) {
-      const MeshEdge other = found->second;
-      mesh.neighbors[e.triangle][e.side] = other.triangle;
-      mesh.neighbors[other.triangle][other.side] = e.triangle;
-    }
-  };
-  if (count > 0)
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] == NONE)
-          link ({t, side});
-}
-
 } // namespace
 
 std::size_t
@@ -191,12 +161,11 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
       loop.keep_open = true;
   }
   // Reserves exactly: growing would double the memory.
-  const std::size_t triangles = mesh.triangles.size () + filler.triangles ().size ();
-  mesh.triangles.reserve (triangles);
-  mesh.neighbors.reserve (triangles);
+  mesh.triangles.reserve (mesh.triangles.size () + filler.triangles ().size ());
   mesh.triangles.insert (mesh.triangles.end (), filler.triangles ().begin (),
                          filler.triangles ().end ());
-  connectLast (filler.triangles ().size (), mesh);
+  if (filled > 0 && !mesh.connect (positions.size (), run))
+    throw std::logic_error ("a hole was filled by triangles that do not fit");
   return filled;
 }
 

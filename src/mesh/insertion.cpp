@@ -15,13 +15,6 @@ namespace pcl::floater {
 namespace {
 constexpr std::size_t LARGEST_STAR = 200; // triangles: the largest k of the options
 
-// A partial point without a triangle has one outside this submesh.
-bool
-isMissing (const TriangleMesh& mesh, Index p)
-{
-  return mesh.triangle_of[p] == NONE && !mesh.isPartial (p);
-}
-
 // Inserts points one by one, always the one with the cheapest split.
 class PointInserter
 {
@@ -37,7 +30,7 @@ public:
   {
     std::vector<Index> missing;
     for (Index p = 0; p < mesh_.triangle_of.size (); ++p)
-      if (isMissing (p))
+      if (mesh_.triangle_of[p] == NONE)
         missing.push_back (p);
     if (missing.empty ())
       return 0;
@@ -59,10 +52,6 @@ public:
       const Place now = cheapest (place.point);
       if (now.triangle == NONE)
         continue;
-      if (now.added > place.added && !queue_.empty () && now.added > queue_.top ().added) {
-        queue_.push (now); // the mesh has changed there: another point may be cheaper now
-        continue;
-      }
       insert (now);
       ++inserted;
     }
@@ -81,8 +70,6 @@ private:
     }
   };
 
-  bool isMissing (Index p) const { return floater::isMissing (mesh_, p); }
-
   // Pairs of missing points, the first among the neighbours of the second: the second can be
   // inserted after the first.
   void findAwaiting (const std::vector<Index>& missing)
@@ -91,7 +78,7 @@ private:
     for (Index p : missing) {
       progress.next ();
       for (Index q : neighbors_.row (p))
-        if (isMissing (q))
+        if (mesh_.triangle_of[q] == NONE)
           awaiting_.emplace_back (q, p);
     }
     std::sort (awaiting_.begin (), awaiting_.end ());
@@ -130,7 +117,7 @@ private:
   {
     mesh_.fan (q, fan_);
     for (Index t : fan_) {
-      if (seen_[t] == search_ || !mesh_.isFree (t))
+      if (seen_[t] == search_)
         continue;
       seen_[t] = search_;
       const double limit =
@@ -145,16 +132,9 @@ private:
   bool isHub (Index q) const
   {
     std::size_t count = 0;
-    const Index start = mesh_.triangle_of[q];
-    for (Index t = start; t != NONE; ++count) {
-      if (count > LARGEST_STAR)
-        return true;
-      t = mesh_.neighbors[t][TriangleMesh::next (mesh_.sideOf (t, q))];
-      if (t == start)
-        return false;
-    }
-    for (Index t = start; t != NONE && count <= LARGEST_STAR; ++count)
-      t = mesh_.neighbors[t][TriangleMesh::previous (mesh_.sideOf (t, q))];
+    for (FanWalk walk (mesh_, q); walk.triangle () != NONE && count <= LARGEST_STAR;
+         walk.advance ())
+      ++count;
     return count > LARGEST_STAR;
   }
 
@@ -190,15 +170,6 @@ private:
 };
 
 } // namespace
-
-bool
-isAnyMissing (const TriangleMesh& mesh)
-{
-  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
-    if (isMissing (mesh, p))
-      return true;
-  return false;
-}
 
 std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,

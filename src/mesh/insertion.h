@@ -7,14 +7,10 @@
 #include "mesh/triangle_mesh.h"
 
 namespace pcl::floater {
-/// Whether there are points for insertMissingPoints (). O(n).
-bool
-isAnyMissing (const TriangleMesh& mesh);
-
 /// Inserts every point without triangle that has vertices among its nearest neighbours: splits the
 /// triangle around these whose split costs least. The cheapest point comes first, since it shows
 /// the next ones where the surface is. A point that has only missing neighbours follows when one of
-/// these is inserted. Fixed triangles stay. O(m log m) for m missing points.
+/// these is inserted. O(m log m) for m missing points.
 /// \param neighbors of each point, nearest first
 /// \param flip      whether edges around each inserted point are flipped at once
 /// \return number of points inserted

@@ -19,10 +19,13 @@ constexpr std::size_t MANY_IN_STAR = 32;
 class StarConnector
 {
 public:
-  explicit StarConnector (TriangleMesh& mesh) : mesh_ (mesh) {}
+  StarConnector (TriangleMesh& mesh, const std::vector<std::uint8_t>* may_be_split)
+      : mesh_ (mesh), may_be_split_ (may_be_split)
+  {
+  }
 
   // Sets the neighbours across the edges that leave p, and its triangle. Returns false if an edge
-  // leaves it twice, or if it is not partial and has several fans.
+  // leaves it twice, or if it has several fans and may not.
   bool connect (Index p, const VertexStar& star)
   {
     mesh_.triangle_of[p] = star.size () == 0 ? NONE : star[star.size () - 1].triangle;
@@ -42,7 +45,7 @@ public:
       mesh_.neighbors[t][TriangleMesh::previous (mesh_.sideOf (t, p))] =
           before_[i] == NONE ? NONE : star[before_[i]].triangle;
     }
-    return mesh_.isPartial (p) || isOneFan ();
+    return (may_be_split_ != nullptr && (*may_be_split_)[p] != 0) || isOneFan ();
   }
 
 private:
@@ -92,6 +95,7 @@ private:
   }
 
   TriangleMesh& mesh_;
+  const std::vector<std::uint8_t>* may_be_split_;
   std::vector<Index> after_, before_;        // of each wedge: neighbours in the fan, or NONE
   std::unordered_map<Index, Index> leaving_; // if there are many wedges: each by its first edge
 };
@@ -99,7 +103,8 @@ private:
 } // namespace
 
 bool
-TriangleMesh::connect (std::size_t points, const RunContext& run)
+TriangleMesh::connect (std::size_t points, const RunContext& run,
+                       const std::vector<std::uint8_t>* may_be_split)
 {
   // Tables of edges have 3 entries per triangle.
   requireCountable (3 * triangles.size (), NONE - 1, "a table of edges", "use fewer points");
@@ -112,7 +117,7 @@ TriangleMesh::connect (std::size_t points, const RunContext& run)
     if (!is_manifold)
       return;
     const VertexStars stars (triangles, ranges, r);
-    StarConnector connector (*this);
+    StarConnector connector (*this, may_be_split);
     for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r) && is_manifold; ++p)
       if (!connector.connect (static_cast<Index> (p), stars.of (p)))
         is_manifold = false;

@@ -5,7 +5,6 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "mesh/fold_repair.h"
 #include "mesh/two_sides.h"
 
 #include <algorithm>
@@ -31,15 +30,15 @@ public:
   // \param is_turned of each patch of the frame; empty: none is
   PieceInPlace (const Place& place, const std::vector<Triangle>& others,
                 const std::vector<std::uint8_t>& is_turned, const RunContext& run)
-      : place_ (place), run_ (run)
+      : place_ (place)
   {
     mesh_.triangles = others;
     for (std::size_t i = 0; i < place.frame.size (); ++i)
       mesh_.triangles.push_back (
           turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
     for (std::size_t p = 0; p < place.positions.size (); ++p)
-      mesh_.is_partial.push_back (isInside (p) ? 0 : 1);
-    is_manifold_ = mesh_.connect (place.positions.size (), run);
+      is_outside_.push_back (isInside (p) ? 0 : 1);
+    is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside_);
   }
 
   // Whether all points inside have one fan, which is open only at boundaries that stay.
@@ -82,8 +81,6 @@ public:
     return twice - triangles + (3 * triangles + open_edges) / 2;
   }
 
-  std::size_t folds () const { return findFolds (mesh_, place_.positions, run_).size (); }
-
 private:
   bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
 
@@ -97,8 +94,8 @@ private:
   }
 
   const Place& place_;
-  const RunContext& run_;
   TriangleMesh mesh_;
+  std::vector<std::uint8_t> is_outside_; // of each point: some of its triangles may be missing
   bool is_manifold_ = false;
 };
 
@@ -126,10 +123,9 @@ public:
   {
   }
 
-  // \param is_noise   out: see RemadePlace
-  // \param is_careful accepts neither a change of the topology nor more folds
+  // \param is_noise out: see RemadePlace
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, bool is_careful, std::uint8_t& is_noise) const
+  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise) const
   {
     std::vector<Index> points (zone.begin (), zone.end ());
     addRing (points);
@@ -143,11 +139,7 @@ public:
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
         after (place, made.triangles, made.is_turned, run_);
-    if (!after.isRight ())
-      return std::nullopt;
-    const long handles = before.twiceHandles (), handles_now = after.twiceHandles ();
-    if (handles_now > handles ||
-        (is_careful && (handles_now < handles || after.folds () > before.folds ())))
+    if (!after.isRight () || after.twiceHandles () > before.twiceHandles ())
       return std::nullopt;
     NewZone result;
     for (const Triangle& t : made.triangles)
@@ -345,12 +337,6 @@ private:
   std::vector<std::uint8_t> is_turned_; // of each triangle, and then of each zone
 };
 
-struct Pass
-{
-  int rings;
-  bool is_careful;
-};
-
 } // namespace
 
 Remaking
@@ -359,9 +345,9 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const RemakingLimits& limits, const RunContext& run)
 {
   Remaking done;
-  for (const Pass& pass : {Pass{1, true}, Pass{3, false}, Pass{2, false}}) {
+  for (const int rings : {3, 2}) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                                                     pass.rings, limits.disturbance, run);
+                                                     rings, limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     std::vector<std::uint8_t> is_noise (made.size (), 0);
     if (made.empty ())
@@ -369,7 +355,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), pass.is_careful, is_noise[zone]);
+      made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);
     });
     TriangleMesh spliced;
     spliced.triangles = ZoneSplicing (mesh, zones, made).splice ();

@@ -103,7 +103,7 @@ private:
   bool flip (MeshEdge e)
   {
     const MeshEdge m = mesh_.mate (e);
-    if (m.triangle == NONE || !mesh_.isFree (e.triangle) || !mesh_.isFree (m.triangle) ||
+    if (m.triangle == NONE ||
         (!table_.isCrossing (e.triangle) && !table_.isCrossing (m.triangle)) ||
         mesh_.hasEdge (mesh_.corner (e), mesh_.corner (m)))
       return false;

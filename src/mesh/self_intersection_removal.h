@@ -51,7 +51,7 @@ struct Uncrossing
 /// Flips edges and moves vertices (see VertexMover) where triangles cross; where neither helps,
 /// removes all vertices of a patch and reinserts them in other orders. A change must not increase
 /// the number of crossing pairs or folded edges (isFold), and must lower the total cost of mesh and
-/// crossing pairs; of several, the best is kept. The boundary, the topology and fixed triangles
+/// crossing pairs; of several, the best is kept. The boundary, the topology
 /// stay; every point keeps its triangles. O(n) initially, and O(log n) for each of a few hundred
 /// trials per crossing triangle, within the limits. One thread.
 /// \param pairs all pairs of the mesh (see findSelfIntersections)

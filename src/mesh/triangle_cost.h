@@ -38,20 +38,8 @@ public:
   TriangleCost (const std::vector<Eigen::Vector3d>& positions,
                 const std::vector<Eigen::Vector3f>& normals,
                 const std::vector<float>* spacing = nullptr, const CostLimits& limits = {})
-      : positions_ (positions.data ()), normals_ (normals.data ()),
-        spacing_ (spacing != nullptr ? spacing->data () : nullptr), limits_ (limits)
+      : positions_ (positions), normals_ (normals), spacing_ (spacing), limits_ (limits)
   {
-  }
-
-  /// This cost for points that are numbered from `first` on.
-  TriangleCost countedFrom (Index first) const
-  {
-    TriangleCost cost = *this;
-    cost.positions_ += first;
-    cost.normals_ += first;
-    if (spacing_ != nullptr)
-      cost.spacing_ += first;
-    return cost;
   }
 
   struct Value
@@ -84,9 +72,9 @@ private:
   double agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector,
                     double double_area) const;
 
-  const Eigen::Vector3d* positions_;
-  const Eigen::Vector3f* normals_;
-  const float* spacing_; // nullptr: there is none
+  const std::vector<Eigen::Vector3d>& positions_;
+  const std::vector<Eigen::Vector3f>& normals_;
+  const std::vector<float>* spacing_; // nullptr: there is none
   CostLimits limits_;
 };
 
@@ -157,23 +145,7 @@ private:
   std::size_t asked_ = 0;
 };
 
-/// Class of each point, decided before the repair.
-enum class RepairTarget : std::uint8_t
-{
-  NOTHING,   ///< there is nothing to repair
-  BAD,       ///< a corner of a bad triangle: a turned one (see CostLimits), or one more than 90
-             ///< degrees from a neighbouring triangle
-  SCATTERED, ///< most points of the patch around are corners of bad triangles: there is no
-             ///< consistent surface, so only vertices at folds are moved
-};
-
-/// Class of each point. A patch is a run of points along the space-filling curve. O(n).
-/// \param patch_points length of a patch
-std::vector<RepairTarget>
-findRepairTargets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const TriangleCost& cost, std::size_t patch_points, const RunContext& run);
-
-/// Whether a triangle is bad (see RepairTarget::BAD).
+/// Whether a triangle is bad: turned (see CostLimits), or more than 90 degrees from a neighbouring one.
 /// \param normal_of normal of a triangle, of any length
 template <typename NormalOf>
 bool

@@ -13,40 +13,6 @@ namespace {
 // Triangles per task of findComponents (). Large enough that few edges leave them.
 constexpr std::size_t JOINED = 65536;
 
-// Visits the triangles around a point: anti-clockwise, then clockwise from the start.
-class FanWalk
-{
-public:
-  FanWalk (const TriangleMesh& mesh, Index p)
-      : mesh_ (mesh), p_ (p), start_ (mesh.triangle_of[p]), at_ (start_)
-  {
-  }
-
-  Index triangle () const { return at_; } // NONE: no more
-
-  void advance ()
-  {
-    if (!is_clockwise_) {
-      at_ = mesh_.neighbors[at_][TriangleMesh::next (mesh_.sideOf (at_, p_))];
-      if (at_ == start_)
-        at_ = NONE;
-      else if (at_ == NONE) {
-        is_clockwise_ = true;
-        at_ = start_;
-      }
-      else
-        return;
-    }
-    if (is_clockwise_)
-      at_ = mesh_.neighbors[at_][TriangleMesh::previous (mesh_.sideOf (at_, p_))];
-  }
-
-private:
-  const TriangleMesh& mesh_;
-  Index p_, start_, at_;
-  bool is_clockwise_ = false;
-};
-
 bool
 isCorner (const Triangle& triangle, Index p)
 {
@@ -80,19 +46,15 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 }
 
 // Walks both fans in step, so the smaller one decides: the other may be a hub with a fan as large
-// as the mesh. A fan with missing triangles cannot decide; of two hubs, the edge may be anywhere.
+// as the mesh. Of two hubs, the edge may be anywhere.
 bool
 TriangleMesh::hasEdge (Index p, Index q) const
 {
-  const bool is_p_partial = isPartial (p), is_q_partial = isPartial (q);
-  if (is_p_partial && is_q_partial)
-    return true;
-  FanWalk around_p (*this, is_p_partial ? q : p), around_q (*this, is_q_partial ? p : q);
-  const Index other_of_p = is_p_partial ? p : q, other_of_q = is_q_partial ? q : p;
   constexpr int HUB = 500; // triangles
+  FanWalk around_p (*this, p), around_q (*this, q);
   for (int steps = 0; around_p.triangle () != NONE && around_q.triangle () != NONE; ++steps) {
-    if (steps == HUB || isCorner (triangles[around_p.triangle ()], other_of_p) ||
-        isCorner (triangles[around_q.triangle ()], other_of_q))
+    if (steps == HUB || isCorner (triangles[around_p.triangle ()], q) ||
+        isCorner (triangles[around_q.triangle ()], p))
       return true;
     around_p.advance ();
     around_q.advance ();
@@ -184,8 +146,6 @@ TriangleMesh::split (Index t, Index p)
   const auto u = static_cast<Index> (triangles.size ());
   triangles.resize (u + 2U);
   neighbors.resize (u + 2U, {NONE, NONE, NONE});
-  if (!is_fixed.empty ())
-    is_fixed.resize (u + 2U, 0);
   split (t, p, u, u + 1);
 }
 

@@ -50,16 +50,6 @@ struct TriangleMesh
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
   MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
-  /// For submeshes (see MeshBlock); both are empty if the mesh is complete.
-  std::vector<std::uint8_t> is_fixed;   ///< per triangle: it may not be changed
-  std::vector<std::uint8_t> is_partial; ///< per point: triangles around it are missing
-
-  /// Whether a triangle may be changed: it is not fixed.
-  bool isFree (Index t) const { return is_fixed.empty () || is_fixed[t] == 0; }
-
-  /// Whether triangles around a point are missing.
-  bool isPartial (Index p) const { return !is_partial.empty () && is_partial[p] != 0; }
-
   static std::uint8_t next (std::uint8_t side)
   {
     return static_cast<std::uint8_t> (side == 2 ? 0 : side + 1);
@@ -92,8 +82,8 @@ struct TriangleMesh
   /// boundary edge to the other. Empty if p is not a vertex. O(triangles around p).
   void fan (Index p, std::vector<Index>& fan_triangles) const;
 
-  /// True if p (a vertex) and q share an edge. Also true if both are partial: the edge may be
-  /// outside this submesh; or if both have more than 500 triangles. O(triangles around p).
+  /// True if p and q, both vertices, share an edge. Also true if both have more than 500 triangles.
+  /// O(triangles around p).
   bool hasEdge (Index p, Index q) const;
 
   /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,
@@ -124,18 +114,53 @@ struct TriangleMesh
   /// Undoes all recorded changes since mark () returned this value, the last one first.
   void undo (std::size_t mark);
 
-  /// Sets neighbours and triangle_of from the triangles. Partial points may have several fans.
+  /// Sets neighbours and triangle_of from the triangles.
   /// O(n), on all threads. Temporarily 5 bytes per triangle, 12 if they are in random order.
   /// \param points number of points; corners must be below
+  /// \param may_be_split of each point: whether it may have several fans; nullptr: none may
   /// \return false unless the triangles are an oriented manifold; the mesh is then unusable
   /// \throws IndexLimitReached if there are 2^32 / 3 triangles or more
-  bool connect (std::size_t points, const RunContext& run);
+  bool connect (std::size_t points, const RunContext& run,
+                const std::vector<std::uint8_t>* may_be_split = nullptr);
 
 private:
   void link (Index t, std::uint8_t side, MeshEdge other);
   void set (Index t, const Triangle& corners);
   void setTriangleOf (Index p, Index t);
   void note (Index t);
+};
+
+/// Visits the triangles around a point: anti-clockwise, at the boundary then clockwise from the
+/// start.
+class FanWalk
+{
+public:
+  FanWalk (const TriangleMesh& mesh, Index p)
+      : mesh_ (mesh), p_ (p), start_ (mesh.triangle_of[p]), at_ (start_)
+  {
+  }
+
+  Index triangle () const { return at_; } ///< NONE: no more
+
+  void advance ()
+  {
+    if (!is_clockwise_) {
+      at_ = mesh_.neighbors[at_][TriangleMesh::next (mesh_.sideOf (at_, p_))];
+      if (at_ != NONE) {
+        if (at_ == start_)
+          at_ = NONE;
+        return;
+      }
+      is_clockwise_ = true;
+      at_ = start_;
+    }
+    at_ = mesh_.neighbors[at_][TriangleMesh::previous (mesh_.sideOf (at_, p_))];
+  }
+
+private:
+  const TriangleMesh& mesh_;
+  Index p_, start_, at_;
+  bool is_clockwise_ = false;
 };
 
 /// The points of each boundary loop in order, the surface on the left. A loop starts at its

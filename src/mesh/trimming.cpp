@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/trimming.h"
 
+#include "core/csr_lists.h"
 #include "mesh/self_intersections.h"
 
 #include <algorithm>
-#include <set>
-#include <unordered_map>
 #include <utility>
 
 namespace pcl::floater {
@@ -157,39 +156,29 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
   removeTriangles (mesh, std::move (is_removed), run);
 }
 
-// Greedy cover: a set of triangles with one of each pair. O(pairs log pairs).
+// Of each triangle, whether it is cut off: of each pair one, those of most pairs first.
 std::vector<std::uint8_t>
-coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs, const RunContext& run)
+coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
 {
-  std::unordered_map<Index, std::vector<Index>> partners;
-  for (const CrossingPair& pair : pairs) {
-    partners[pair.first].push_back (pair.second);
-    partners[pair.second].push_back (pair.first);
-  }
-  // Most uncovered partners first, then the smallest triangle.
-  std::unordered_map<Index, std::size_t> left;
-  std::set<std::pair<std::size_t, Index>> order;
-  const auto key = [&] (Index t) { return std::make_pair (pairs.size () - left[t], t); };
-  for (const auto& [t, others] : partners) {
-    left[t] = others.size ();
-    order.insert (key (t));
-  }
-  std::vector<std::uint8_t> is_in (triangles, 0);
-  ProgressLoop progress (run);
-  while (!order.empty ()) {
-    const Index t = order.begin ()->second;
-    order.erase (order.begin ());
-    if (left[t] == 0)
-      break; // the rest has none, either
-    is_in[t] = 1;
-    for (const Index u : partners[t]) {
-      progress.next ();
-      if (is_in[u] != 0)
-        continue;
-      order.erase (key (u));
-      --left[u];
-      order.insert (key (u));
+  const CsrLists partners = makeCsrLists (triangles, [&pairs] (const auto& emit) {
+    for (const CrossingPair& pair : pairs) {
+      emit (pair.first, pair.second);
+      emit (pair.second, pair.first);
     }
+  });
+  std::vector<Index> order;
+  for (Index t = 0; t < triangles; ++t)
+    if (partners.row (t).size () > 0)
+      order.push_back (t);
+  std::stable_sort (order.begin (), order.end (), [&partners] (Index t, Index u) {
+    return partners.row (t).size () > partners.row (u).size ();
+  });
+  std::vector<std::uint8_t> is_in (triangles, 0);
+  for (const Index t : order) {
+    const Row row = partners.row (t);
+    is_in[t] = std::any_of (row.begin (), row.end (), [&is_in] (Index u) { return is_in[u] == 0; })
+                   ? 1
+                   : 0;
   }
   return is_in;
 }
@@ -200,7 +189,7 @@ cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
 {
   const std::size_t before = mesh.triangles.size ();
   const CrossingPairs pairs = findSelfIntersections (mesh.triangles, points.positions, run);
-  std::vector<std::uint8_t> is_cut = coverPairs (before, pairs, run);
+  std::vector<std::uint8_t> is_cut = coverPairs (before, pairs);
   for (const Index t : pairs.untested)
     is_cut[t] = 1;
   removeTriangles (mesh, is_cut, run);

@@ -35,7 +35,7 @@ bool
 asksForTrimming (const TrimmingOptions& options);
 
 /// Removes triangles with too long an edge. Then removes crossing triangles until none are left:
-/// again and again the one that crosses most others, the first of equal ones. Keeps one fan at each
+/// those that cross most others first, the first of equal ones. Keeps one fan at each
 /// point, as removeTriangles () does, and removes components of too few points. The mesh stays an
 /// oriented manifold, and may become empty. One thread: 0.2 microseconds per point, plus the time
 /// of findSelfIntersections for crossing triangles.

@@ -34,8 +34,6 @@ VertexMover::takeOut (Index v, double& change)
   const Index last = fan_.back ();
   if (mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, v))] != fan_.front ())
     return false; // at the boundary
-  if (!std::all_of (fan_.begin (), fan_.end (), [this] (Index t) { return mesh_.isFree (t); }))
-    return false;
   polygon_.clear ();
   for (Index t : fan_)
     polygon_.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
@@ -151,17 +149,12 @@ VertexMover::settleAt (Index v, Index t)
   return flipper_.run ();
 }
 
-// True if the mesh has the reversed triangle: the fourth triangle of a tetrahedron. Also true if
-// all three corners are partial: the triangle may exist outside this submesh.
+// True if the mesh has the reversed triangle: the fourth triangle of a tetrahedron.
 bool
 VertexMover::isTriangle (const Triangle& corners)
 {
-  const auto* const whole = std::find_if (corners.begin (), corners.end (),
-                                          [this] (Index p) { return !mesh_.isPartial (p); });
-  if (whole == corners.end ())
-    return true;
   std::vector<Index> around;
-  mesh_.fan (*whole, around);
+  mesh_.fan (corners[0], around);
   return std::any_of (around.begin (), around.end (), [&] (Index t) {
     const Triangle& c = mesh_.triangles[t];
     return std::all_of (corners.begin (), corners.end (),
@@ -191,7 +184,7 @@ VertexMover::findPlaces (Index v, std::size_t most)
 void
 VertexMover::offer (Index t, Index v, std::size_t most)
 {
-  if (offered_[t] == search_ || !mesh_.isFree (t))
+  if (offered_[t] == search_)
     return;
   offered_[t] = search_;
   const double limit =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The manifold part of a consensus, and clouds whose stars meet in one point several times.
-#include "consensus/manifold_part.h"
+#include "consensus/consensus.h"
 #include "mesh_oracle.h"
 
 #include <pcl/surface/floater/reconstruct.h>

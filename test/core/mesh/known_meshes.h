@@ -35,13 +35,6 @@ pointsAt (const Positions& positions)
   return points;
 }
 
-inline MeshExamination
-check (const Mesh& mesh, float spacing = 0.1F)
-{
-  return checkMesh (mesh.triangles, pointsAt (mesh.positions),
-                    std::vector<float> (mesh.positions.size (), spacing), 1);
-}
-
 /// The triangles in the same order, with their neighbours. The calling test fails if they are no
 /// oriented manifold.
 inline TriangleMesh
@@ -57,6 +50,13 @@ inline TriangleMesh
 connected (const Mesh& mesh)
 {
   return connected (mesh.triangles, mesh.positions.size ());
+}
+
+inline MeshExamination
+check (const Mesh& mesh, float spacing = 0.1F)
+{
+  return checkMesh (connected (mesh), pointsAt (mesh.positions),
+                    std::vector<float> (mesh.positions.size (), spacing), 1);
 }
 
 /// Expects an oriented manifold with the neighbours that connect () finds, and one of its triangles
