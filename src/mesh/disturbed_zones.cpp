@@ -144,14 +144,14 @@ private:
 
   // Whether the boundary of another sheet, or of another piece of this one, is beside a point of
   // the boundary.
-  bool isBesideSheet (Index p) const
+  bool isBesideSheet (Index p, double within) const
   {
     const OnLoop& here = on_loop_.at (p);
     const Row around = neighbors_.row (p);
     return std::any_of (around.begin (), around.end (), [&] (Index q) {
       const auto at = on_loop_.find (q);
       const double distance = (positions_[q] - positions_[p]).norm ();
-      if (at == on_loop_.end () || distance > limits_.beside * static_cast<double> (spacing_[p]) ||
+      if (at == on_loop_.end () || distance > within * static_cast<double> (spacing_[p]) ||
           here.normal.dot (at->second.normal) > limits_.same_sheet)
         return false;
       const double way = std::abs (at->second.way - here.way);
@@ -167,18 +167,52 @@ private:
     bool is_any = false;
     if (!limits_.closes_gaps)
       return false;
-    for (const std::vector<Index>& loop : loops_) {
-      const auto beside = std::count_if (loop.begin (), loop.end (), [&] (Index p) {
-        return is_disturbed_[p] != 0 || isBesideSheet (p);
-      });
-      if (loop.size () > limits_.small_loop &&
-          static_cast<double> (beside) < limits_.gap_share * static_cast<double> (loop.size ()))
-        continue;
-      is_any = true;
-      for (const Index p : loop)
+    for (const std::vector<Index>& loop : loops_)
+      for (const Index p : pointsOfGap (loop)) {
         is_wrong_[p] = is_disturbed_[p] = 1;
-    }
+        is_any = true;
+      }
     return is_any;
+  }
+
+  // The whole of a loop that is a gap. Of one that is a true boundary elsewhere: where it runs along
+  // a fold, so near to the other sheet that the points would not show a gap.
+  std::vector<Index> pointsOfGap (const std::vector<Index>& loop) const
+  {
+    if (loop.size () <= limits_.small_loop)
+      return loop;
+    const std::vector<Index> beside = besideSheet (loop, limits_.beside);
+    if (static_cast<double> (beside.size ()) >=
+            limits_.gap_share * static_cast<double> (loop.size ()) &&
+        withoutLongRuns (loop, beside).size () == loop.size ())
+      return loop;
+    const std::vector<Index> touching = besideSheet (loop, limits_.touching);
+    return touching.size () > limits_.small_loop ? withoutLongRuns (loop, touching)
+                                                 : std::vector<Index>{};
+  }
+
+  // Places in the loop, ascending.
+  std::vector<Index> besideSheet (const std::vector<Index>& loop, double within) const
+  {
+    std::vector<Index> places;
+    for (Index i = 0; i < loop.size (); ++i)
+      if (is_disturbed_[loop[i]] != 0 || isBesideSheet (loop[i], within))
+        places.push_back (i);
+    return places;
+  }
+
+  // The points at some places of a loop, and those between that are fewer than `small_piece`.
+  std::vector<Index> withoutLongRuns (const std::vector<Index>& loop,
+                                      const std::vector<Index>& places) const
+  {
+    std::vector<Index> points;
+    for (std::size_t i = 0; i < places.size (); ++i) {
+      const std::size_t next = i + 1 < places.size () ? places[i + 1] : places[0] + loop.size ();
+      const std::size_t last = next - places[i] > limits_.small_piece ? places[i] + 1 : next;
+      for (std::size_t k = places[i]; k < last; ++k)
+        points.push_back (loop[k % loop.size ()]);
+    }
+    return points;
   }
 
   bool isDelaunay (Index t) const

@@ -3,9 +3,11 @@
 #include "mesh/remaking.h"
 
 #include "core/disjoint_sets.h"
+#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/fold_repair.h"
+#include "mesh/open_boundary.h"
 #include "mesh/two_sides.h"
 
 #include <algorithm>
@@ -50,13 +52,19 @@ public:
     for (std::size_t p = 0; p < place_.positions.size (); ++p)
       if (isInside (p) && mesh_.triangle_of[p] == NONE)
         return false;
-    bool is_right = true;
+    return gapEdges () == 0;
+  }
+
+  // Open edges but those of boundaries that stay.
+  std::size_t gapEdges () const
+  {
+    std::size_t count = 0;
     forEachOpenEdge ([&] (Index from, Index to) {
       if ((isInside (from) || isInside (to)) &&
           (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
-        is_right = false;
+        ++count;
     });
-    return is_right;
+    return count;
   }
 
   long twiceHandles () const
@@ -80,6 +88,30 @@ public:
         twice +=
             (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
     return twice - triangles + (3 * triangles + open_edges) / 2;
+  }
+
+  // Which of the other triangles cover an opening at the boundary: no point is in the circumcircle of
+  // a triangle, and among evenly spaced points its radius is at most the mean edge (see
+  // HoleWideningLimits).
+  // \param edge mean edge around each point
+  std::vector<std::uint8_t> overOpenings (const std::vector<double>& edge, std::size_t others) const
+  {
+    const std::vector<Eigen::Vector3d>& x = place_.positions;
+    BoundaryPeel peel (mesh_, x.size (), run_);
+    std::vector<MeshEdge> edges = peel.edges ();
+    while (!edges.empty ()) {
+      const MeshEdge e = edges.back ();
+      edges.pop_back ();
+      const auto& [a, b, c] = mesh_.triangles[e.triangle];
+      if (e.triangle >= others || !peel.mayTake (e) ||
+          circumradius (x[a], x[b], x[c]) <= std::max ({edge[a], edge[b], edge[c]}))
+        continue;
+      peel.take (e);
+      for (const std::uint8_t side : {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)})
+        if (const MeshEdge beyond = mesh_.mate ({e.triangle, side}); beyond.triangle != NONE)
+          edges.push_back (beyond);
+    }
+    return std::move (peel).takenTriangles ();
   }
 
   std::size_t folds () const { return findFolds (mesh_, place_.positions, run_).size (); }
@@ -147,11 +179,17 @@ public:
       return std::nullopt;
     const long handles = before.twiceHandles (), handles_now = after.twiceHandles ();
     if (handles_now > handles ||
-        (is_careful && (handles_now < handles || after.folds () > before.folds ())))
+        (is_careful &&
+         (handles_now < handles || after.folds () > before.folds () + before.gapEdges ())))
       return std::nullopt;
     NewZone result;
-    for (const Triangle& t : made.triangles)
-      result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
+    std::vector<double> edges;
+    for (const Index p : points)
+      edges.push_back (meanEdge (p));
+    const std::vector<std::uint8_t> over = after.overOpenings (edges, made.triangles.size ());
+    for (std::size_t i = 0; i < made.triangles.size (); ++i)
+      if (const Triangle& t = made.triangles[i]; over[i] == 0)
+        result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
     std::vector<std::uint8_t> is_known (place.patches, 0);
     for (std::size_t i = 0; i < frame.size (); ++i)
       if (const Index patch = place.patch_of[i]; is_known[patch]++ == 0)
@@ -359,7 +397,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const RemakingLimits& limits, const RunContext& run)
 {
   Remaking done;
-  for (const Pass& pass : {Pass{1, true}, Pass{3, false}, Pass{2, false}}) {
+  for (const Pass& pass : {Pass{1, true}, Pass{3, false}, Pass{2, false}, Pass{1, false}}) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
                                                      pass.rings, limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());

@@ -22,11 +22,11 @@ struct Remaking
   std::size_t failed = 0; ///< left as they were in the last pass
 };
 
-/// Makes zones anew in space (see findDisturbedZones and remakePlace), in three passes: narrow ones
+/// Makes zones anew in space (see findDisturbedZones and remakePlace), in four passes: narrow ones
 /// first, where nothing but the wrong triangles is to change; then wide ones; then those that came
-/// out wrong once more, a little narrower. A zone stays as it was if its new triangles are no
+/// out wrong once more, narrower each time. A zone stays as it was if its new triangles are no
 /// manifold with those around, have a handle more or a lid on an opening; and if the sides of pieces
-/// of the mesh contradict each other. Components may come out with either side as the front. O(n),
+/// of the mesh contradict each other. Smaller triangles over an opening at the boundary go again. Components may come out with either side as the front. O(n),
 /// plus some 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
