@@ -78,7 +78,8 @@ public:
   {
   }
 
-  DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
+  DisturbedZones find (const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
+                       int rings)
   {
     is_wrong_.assign (positions_.size (), 0);
     bool is_any = false;
@@ -98,6 +99,8 @@ public:
       return {};
     markDisturbed ();
     markGaps ();
+    for (const Index p : misfits)
+      is_disturbed_[p] = 1;
     for (const std::vector<Index>& loop : loops_)
       for (const Index p : loop)
         zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
@@ -184,11 +187,9 @@ private:
     const std::vector<Index> beside = besideSheet (loop, limits_.beside);
     if (static_cast<double> (beside.size ()) >=
             limits_.gap_share * static_cast<double> (loop.size ()) &&
-        withoutLongRuns (loop, beside).size () == loop.size ())
+        stretches (loop, beside).size () == loop.size ())
       return loop;
-    const std::vector<Index> touching = besideSheet (loop, limits_.touching);
-    return touching.size () > limits_.small_loop ? withoutLongRuns (loop, touching)
-                                                 : std::vector<Index>{};
+    return stretches (loop, besideSheet (loop, limits_.touching));
   }
 
   // Places in the loop, ascending.
@@ -201,16 +202,31 @@ private:
     return places;
   }
 
-  // The points at some places of a loop, and those between that are fewer than `small_piece`.
-  std::vector<Index> withoutLongRuns (const std::vector<Index>& loop,
-                                      const std::vector<Index>& places) const
+  // Stretches of a loop with more than `small_loop` of these places, with gaps of no more than
+  // `small_piece` between them.
+  std::vector<Index> stretches (const std::vector<Index>& loop,
+                                const std::vector<Index>& places) const
   {
+    const std::size_t n = places.size ();
+    const auto way = [&] (std::size_t from, std::size_t to) {
+      return (places[to % n] + loop.size () - places[from % n]) % loop.size ();
+    };
+    const auto isLast = [&] (std::size_t i) { return way (i, i + 1) > limits_.small_piece; };
+    if (n <= limits_.small_loop)
+      return {};
+    std::size_t start = 0;
+    while (start < n && !isLast (start))
+      ++start;
+    if (start == n)
+      return loop;
     std::vector<Index> points;
-    for (std::size_t i = 0; i < places.size (); ++i) {
-      const std::size_t next = i + 1 < places.size () ? places[i + 1] : places[0] + loop.size ();
-      const std::size_t last = next - places[i] > limits_.small_piece ? places[i] + 1 : next;
-      for (std::size_t k = places[i]; k < last; ++k)
-        points.push_back (loop[k % loop.size ()]);
+    for (std::size_t first = start + 1, last = first; last <= start + n; ++last) {
+      if (!isLast (last))
+        continue;
+      if (last - first >= limits_.small_loop)
+        for (std::size_t k = 0; k <= way (first, last); ++k)
+          points.push_back (loop[(places[first % n] + k) % loop.size ()]);
+      first = last + 1;
     }
     return points;
   }
@@ -381,10 +397,11 @@ private:
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings,
-                    const DisturbanceLimits& limits, const RunContext& run)
+                    const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
+                    int rings, const DisturbanceLimits& limits, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run).find (crossing, rings);
+  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run)
+      .find (crossing, misfits, rings);
 }
 
 } // namespace pcl::floater

@@ -14,6 +14,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace pcl::floater {
@@ -44,15 +45,20 @@ public:
     is_manifold_ = mesh_.connect (place.positions.size (), run);
   }
 
-  // Whether all points inside have one fan, which is open only at boundaries that stay.
-  bool isRight () const
+  bool isManifold () const { return is_manifold_; }
+
+  // Points inside that have no single fan, or one that is open but at boundaries that stay.
+  std::vector<Index> misfits () const
   {
-    if (!is_manifold_)
-      return false;
-    for (std::size_t p = 0; p < place_.positions.size (); ++p)
-      if (isInside (p) && mesh_.triangle_of[p] == NONE)
-        return false;
-    return gapEdges () == 0;
+    std::vector<std::vector<std::pair<Index, Index>>> stars (place_.positions.size ());
+    for (const Triangle& t : mesh_.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        stars[t[k]].emplace_back (t[(k + 1) % 3], t[(k + 2) % 3]);
+    std::vector<Index> points;
+    for (Index p = 0; p < stars.size (); ++p)
+      if (isInside (p) && !isFan (p, stars[p]))
+        points.push_back (p);
+    return points;
   }
 
   // Open edges but those of boundaries that stay.
@@ -119,6 +125,28 @@ public:
 private:
   bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
 
+  bool isFan (Index p, const std::vector<std::pair<Index, Index>>& star) const
+  {
+    const std::map<Index, Index> next (star.begin (), star.end ());
+    if (star.empty () || next.size () != star.size ())
+      return false;
+    std::set<Index> ends;
+    for (const auto& [from, to] : star)
+      ends.insert (to);
+    const auto open = std::find_if (star.begin (), star.end (), [&] (const auto& edge) {
+      return ends.count (edge.first) == 0;
+    });
+    const Index first = open == star.end () ? star.front ().first : open->first;
+    std::size_t count = 0;
+    Index last = first;
+    do {
+      last = next.at (last);
+      ++count;
+    } while (last != first && next.count (last) != 0);
+    const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
+    return count == star.size () && (last == first || (stays (p) && stays (first) && stays (last)));
+  }
+
   template <typename Visit>
   void forEachOpenEdge (Visit&& visit) const
   {
@@ -159,9 +187,11 @@ public:
   }
 
   // \param is_noise   out: see RemadePlace
+  // \param misfits    out: points where the new triangles do not fit to the others
   // \param is_careful accepts neither a change of the topology nor more folds
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, bool is_careful, std::uint8_t& is_noise) const
+  std::optional<NewZone> remake (Row zone, bool is_careful, std::uint8_t& is_noise,
+                                 std::vector<Index>& misfits) const
   {
     std::vector<Index> points (zone.begin (), zone.end ());
     addRing (points);
@@ -175,7 +205,10 @@ public:
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
         after (place, made.triangles, made.is_turned, run_);
-    if (!after.isRight ())
+    misfits = after.misfits ();
+    for (Index& p : misfits)
+      p = points[p];
+    if (!misfits.empty () || !after.isManifold ())
       return std::nullopt;
     const long handles = before.twiceHandles (), handles_now = after.twiceHandles ();
     if (handles_now > handles ||
@@ -397,18 +430,25 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const RemakingLimits& limits, const RunContext& run)
 {
   Remaking done;
-  for (const Pass& pass : {Pass{1, true}, Pass{3, false}, Pass{2, false}, Pass{1, false}}) {
-    const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                                                     pass.rings, limits.disturbance, run);
+  std::vector<Index> all_misfits;
+  for (const Pass& pass :
+       {Pass{1, true}, Pass{3, false}, Pass{2, false}, Pass{1, false}, Pass{1, false}}) {
+    const DisturbedZones zones =
+        findDisturbedZones (mesh, positions, neighbors, spacing, crossing, all_misfits, pass.rings,
+                            limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     std::vector<std::uint8_t> is_noise (made.size (), 0);
+    std::vector<std::vector<Index>> misfits (made.size ());
     if (made.empty ())
       return done;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), pass.is_careful, is_noise[zone]);
+      made[zone] =
+          remaker.remake (zones.points.row (zone), pass.is_careful, is_noise[zone], misfits[zone]);
     });
+    for (const std::vector<Index>& points : misfits)
+      all_misfits.insert (all_misfits.end (), points.begin (), points.end ());
     TriangleMesh spliced;
     spliced.triangles = ZoneSplicing (mesh, zones, made).splice ();
     done.failed = static_cast<std::size_t> (std::count (made.begin (), made.end (), std::nullopt));
