@@ -142,7 +142,7 @@ private:
     do {
       last = next.at (last);
       ++count;
-    } while (last != first && next.count (last) != 0);
+    } while (last != first && count < star.size () && next.count (last) != 0);
     const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
     return count == star.size () && (last == first || (stays (p) && stays (first) && stays (last)));
   }
