@@ -78,7 +78,8 @@ public:
   {
   }
 
-  DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
+  DisturbedZones find (const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
+                       int rings)
   {
     is_wrong_.assign (positions_.size (), 0);
     bool is_any = false;
@@ -98,6 +99,8 @@ public:
       return {};
     markDisturbed ();
     markGaps ();
+    for (const Index p : misfits)
+      is_disturbed_[p] = 1;
     for (const std::vector<Index>& loop : loops_)
       for (const Index p : loop)
         zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
@@ -142,14 +145,14 @@ private:
 
   // Whether the boundary of another sheet, or of another piece of this one, is beside a point of
   // the boundary.
-  bool isBesideSheet (Index p) const
+  bool isBesideSheet (Index p, double within) const
   {
     const OnLoop& here = on_loop_.at (p);
     const Row around = neighbors_.row (p);
     return std::any_of (around.begin (), around.end (), [&] (Index q) {
       const auto at = on_loop_.find (q);
       const double distance = (positions_[q] - positions_[p]).norm ();
-      if (at == on_loop_.end () || distance > limits_.beside * static_cast<double> (spacing_[p]) ||
+      if (at == on_loop_.end () || distance > within * static_cast<double> (spacing_[p]) ||
           here.normal.dot (at->second.normal) > limits_.same_sheet)
         return false;
       const double way = std::abs (at->second.way - here.way);
@@ -165,18 +168,65 @@ private:
     bool is_any = false;
     if (!limits_.closes_gaps)
       return false;
-    for (const std::vector<Index>& loop : loops_) {
-      const auto beside = std::count_if (loop.begin (), loop.end (), [&] (Index p) {
-        return is_disturbed_[p] != 0 || isBesideSheet (p);
-      });
-      if (loop.size () > limits_.small_loop &&
-          static_cast<double> (beside) < limits_.gap_share * static_cast<double> (loop.size ()))
-        continue;
-      is_any = true;
-      for (const Index p : loop)
+    for (const std::vector<Index>& loop : loops_)
+      for (const Index p : pointsOfGap (loop)) {
         is_wrong_[p] = is_disturbed_[p] = 1;
-    }
+        is_any = true;
+      }
     return is_any;
+  }
+
+  // The whole of a loop that is a gap. Of one that is a true boundary elsewhere: where it runs along
+  // a fold, so near to the other sheet that the points would not show a gap.
+  std::vector<Index> pointsOfGap (const std::vector<Index>& loop) const
+  {
+    if (loop.size () <= limits_.small_loop)
+      return loop;
+    const std::vector<Index> beside = besideSheet (loop, limits_.beside);
+    if (static_cast<double> (beside.size ()) >=
+            limits_.gap_share * static_cast<double> (loop.size ()) &&
+        stretches (loop, beside).size () == loop.size ())
+      return loop;
+    return stretches (loop, besideSheet (loop, limits_.touching));
+  }
+
+  // Places in the loop, ascending.
+  std::vector<Index> besideSheet (const std::vector<Index>& loop, double within) const
+  {
+    std::vector<Index> places;
+    for (Index i = 0; i < loop.size (); ++i)
+      if (is_disturbed_[loop[i]] != 0 || isBesideSheet (loop[i], within))
+        places.push_back (i);
+    return places;
+  }
+
+  // Stretches of a loop with more than `small_loop` of these places, with gaps of no more than
+  // `long_run` between them.
+  std::vector<Index> stretches (const std::vector<Index>& loop,
+                                const std::vector<Index>& places) const
+  {
+    const std::size_t n = places.size ();
+    const auto way = [&] (std::size_t from, std::size_t to) {
+      return (places[to % n] + loop.size () - places[from % n]) % loop.size ();
+    };
+    const auto isLast = [&] (std::size_t i) { return way (i, i + 1) > limits_.long_run; };
+    if (n <= limits_.small_loop)
+      return {};
+    std::size_t start = 0;
+    while (start < n && !isLast (start))
+      ++start;
+    if (start == n)
+      return loop;
+    std::vector<Index> points;
+    for (std::size_t first = start + 1, last = first; last <= start + n; ++last) {
+      if (!isLast (last))
+        continue;
+      if (last - first >= limits_.small_loop)
+        for (std::size_t k = 0; k <= way (first, last); ++k)
+          points.push_back (loop[(places[first % n] + k) % loop.size ()]);
+      first = last + 1;
+    }
+    return points;
   }
 
   bool isDelaunay (Index t) const
@@ -291,10 +341,11 @@ private:
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings,
-                    const DisturbanceLimits& limits, const RunContext& run)
+                    const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
+                    int rings, const DisturbanceLimits& limits, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run).find (crossing, rings);
+  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run)
+      .find (crossing, misfits, rings);
 }
 
 } // namespace pcl::floater

@@ -19,11 +19,15 @@ struct DisturbanceLimits
   double same_sheet = 0.87;     ///< cosine between their normals, 30 degrees; below, they belong to
                                 ///< two sheets
   double gap_share = 1.0 / 3.0; ///< share of the points of a loop that are beside another sheet,
-                                ///< from which on it is a gap. True boundaries had up to 0.15,
-                                ///< sheets folded to 30 degrees 0.28 to 0.55, gaps at edges of
-                                ///< bodies 0.6 and more
+                                ///< from which on it is a gap. True boundaries had up to 0.15, gaps
+                                ///< at edges of bodies 0.6 and more
+  double touching = 1.0;        ///< distance of pieces of boundary that the sampling does not show:
+                                ///< there they are a gap, also if the loop is open elsewhere
   bool closes_gaps = true;      ///< false: no boundary loop counts as a gap
   std::size_t small_loop = 5;   ///< points; a loop of no more is no opening
+  std::size_t long_run = 32; ///< points of a loop in a row that are no gap and separate two. Along
+                             ///< folds of sheets up to 12 in a row were not touching, on their true
+                             ///< boundary 48 and more
 };
 
 /// Free points, whose triangles are to be made anew.
@@ -36,17 +40,18 @@ struct DisturbedZones
 };
 
 /// Finds what is wrong: triangles that cross, points without a triangle, and boundary loops that
-/// are gaps between sheets. What is disturbed around belongs to it: corners of folded triangles, and
+/// are gaps between sheets, at least in part. What is disturbed around belongs to it: corners of folded triangles, and
 /// of bent ones that are no Delaunay facets in space; so do `rings` of triangles around. O(1) for a
 /// mesh where nothing is wrong, apart from its boundary; otherwise O(n).
 /// \param crossing  all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
+/// \param misfits   points that are disturbed besides
 /// \param rings     width of a zone around what is disturbed
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings,
-                    const DisturbanceLimits& limits, const RunContext& run);
+                    const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
+                    int rings, const DisturbanceLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -5,6 +5,7 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "mesh/piece_in_place.h"
 #include "mesh/two_sides.h"
 
 #include <algorithm>
@@ -15,90 +16,6 @@
 
 namespace pcl::floater {
 namespace {
-Triangle
-turnedIf (bool is_turned, Triangle t)
-{
-  if (is_turned)
-    std::swap (t[1], t[2]);
-  return t;
-}
-
-// A piece of the mesh in a place: the frame and other triangles.
-class PieceInPlace
-{
-public:
-  // \param is_turned of each patch of the frame; empty: none is
-  PieceInPlace (const Place& place, const std::vector<Triangle>& others,
-                const std::vector<std::uint8_t>& is_turned, const RunContext& run)
-      : place_ (place)
-  {
-    mesh_.triangles = others;
-    for (std::size_t i = 0; i < place.frame.size (); ++i)
-      mesh_.triangles.push_back (
-          turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
-    for (std::size_t p = 0; p < place.positions.size (); ++p)
-      is_outside_.push_back (isInside (p) ? 0 : 1);
-    is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside_);
-  }
-
-  // Whether all points inside have one fan, which is open only at boundaries that stay.
-  bool isRight () const
-  {
-    if (!is_manifold_)
-      return false;
-    for (std::size_t p = 0; p < place_.positions.size (); ++p)
-      if (isInside (p) && mesh_.triangle_of[p] == NONE)
-        return false;
-    bool is_right = true;
-    forEachOpenEdge ([&] (Index from, Index to) {
-      if ((isInside (from) || isInside (to)) &&
-          (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
-        is_right = false;
-    });
-    return is_right;
-  }
-
-  long twiceHandles () const
-  {
-    const std::size_t points = place_.positions.size ();
-    DisjointSets pieces (points), loops (points);
-    std::vector<std::uint8_t> is_open (points, 0);
-    const auto triangles = static_cast<long> (mesh_.triangles.size ());
-    long open_edges = 0, twice = 0;
-    for (const Triangle& t : mesh_.triangles) {
-      pieces.join (t[0], t[1]);
-      pieces.join (t[1], t[2]);
-    }
-    forEachOpenEdge ([&] (Index from, Index to) {
-      loops.join (from, to);
-      is_open[from] = is_open[to] = 1;
-      ++open_edges;
-    });
-    for (Index p = 0; p < points; ++p)
-      if (mesh_.triangle_of[p] != NONE)
-        twice +=
-            (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
-    return twice - triangles + (3 * triangles + open_edges) / 2;
-  }
-
-private:
-  bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
-
-  template <typename Visit>
-  void forEachOpenEdge (Visit&& visit) const
-  {
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh_.neighbors[t][side] == NONE)
-          visit (mesh_.from ({t, side}), mesh_.to ({t, side}));
-  }
-
-  const Place& place_;
-  TriangleMesh mesh_;
-  std::vector<std::uint8_t> is_outside_; // of each point: some of its triangles may be missing
-  bool is_manifold_ = false;
-};
-
 // A patch of the frame of a zone, by one of its triangles.
 struct PatchSide
 {
@@ -124,8 +41,10 @@ public:
   }
 
   // \param is_noise out: see RemadePlace
+  // \param misfits  out: points where the new triangles do not fit to the others
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise) const
+  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise,
+                                 std::vector<Index>& misfits) const
   {
     std::vector<Index> points (zone.begin (), zone.end ());
     addRing (points);
@@ -139,11 +58,19 @@ public:
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
         after (place, made.triangles, made.is_turned, run_);
-    if (!after.isRight () || after.twiceHandles () > before.twiceHandles ())
+    misfits = after.misfits ();
+    for (Index& p : misfits)
+      p = points[p];
+    if (!misfits.empty () || !after.isManifold () || after.twiceHandles () > before.twiceHandles ())
       return std::nullopt;
     NewZone result;
-    for (const Triangle& t : made.triangles)
-      result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
+    std::vector<double> edges;
+    for (const Index p : points)
+      edges.push_back (meanEdge (p));
+    const std::vector<std::uint8_t> over = after.overOpenings (edges, made.triangles.size (), run_);
+    for (std::size_t i = 0; i < made.triangles.size (); ++i)
+      if (const Triangle& t = made.triangles[i]; over[i] == 0)
+        result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
     std::vector<std::uint8_t> is_known (place.patches, 0);
     for (std::size_t i = 0; i < frame.size (); ++i)
       if (const Index patch = place.patch_of[i]; is_known[patch]++ == 0)
@@ -345,18 +272,22 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const RemakingLimits& limits, const RunContext& run)
 {
   Remaking done;
-  for (const int rings : {3, 2}) {
+  std::vector<Index> all_misfits;
+  for (const int rings : {3, 2, 1, 1, 1}) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                                                     rings, limits.disturbance, run);
+                                                     all_misfits, rings, limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     std::vector<std::uint8_t> is_noise (made.size (), 0);
+    std::vector<std::vector<Index>> misfits (made.size ());
     if (made.empty ())
       return done;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);
+      made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone], misfits[zone]);
     });
+    for (const std::vector<Index>& points : misfits)
+      all_misfits.insert (all_misfits.end (), points.begin (), points.end ());
     TriangleMesh spliced;
     spliced.triangles = ZoneSplicing (mesh, zones, made).splice ();
     done.failed = static_cast<std::size_t> (std::count (made.begin (), made.end (), std::nullopt));

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a mesh is like in a place: whether the triangles made anew fit to those around.
+#pragma once
+
+#include "core/disjoint_sets.h"
+#include "core/geometry.h"
+#include "mesh/open_boundary.h"
+#include "mesh/two_sides.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace pcl::floater {
+inline Triangle
+turnedIf (bool is_turned, Triangle t)
+{
+  if (is_turned)
+    std::swap (t[1], t[2]);
+  return t;
+}
+
+/// A piece of the mesh in a place: the frame and other triangles.
+class PieceInPlace
+{
+public:
+  /// \param is_turned of each patch of the frame; empty: none is
+  PieceInPlace (const Place& place, const std::vector<Triangle>& others,
+                const std::vector<std::uint8_t>& is_turned, const RunContext& run)
+      : place_ (place)
+  {
+    mesh_.triangles = others;
+    for (std::size_t i = 0; i < place.frame.size (); ++i)
+      mesh_.triangles.push_back (
+          turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
+    for (std::size_t p = 0; p < place.positions.size (); ++p)
+      is_outside_.push_back (isInside (p) ? 0 : 1);
+    is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside_);
+  }
+
+  bool isManifold () const { return is_manifold_; }
+
+  /// Points inside that have no single fan, or one that is open but at boundaries that stay.
+  std::vector<Index> misfits () const
+  {
+    std::vector<std::vector<std::pair<Index, Index>>> stars (place_.positions.size ());
+    for (const Triangle& t : mesh_.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        stars[t[k]].emplace_back (t[(k + 1) % 3], t[(k + 2) % 3]);
+    std::vector<Index> points;
+    for (Index p = 0; p < stars.size (); ++p)
+      if (isInside (p) && !isFan (p, stars[p]))
+        points.push_back (p);
+    return points;
+  }
+
+  long twiceHandles () const
+  {
+    const std::size_t points = place_.positions.size ();
+    DisjointSets pieces (points), loops (points);
+    std::vector<std::uint8_t> is_open (points, 0);
+    const auto triangles = static_cast<long> (mesh_.triangles.size ());
+    long open_edges = 0, twice = 0;
+    for (const Triangle& t : mesh_.triangles) {
+      pieces.join (t[0], t[1]);
+      pieces.join (t[1], t[2]);
+    }
+    forEachOpenEdge ([&] (Index from, Index to) {
+      loops.join (from, to);
+      is_open[from] = is_open[to] = 1;
+      ++open_edges;
+    });
+    for (Index p = 0; p < points; ++p)
+      if (mesh_.triangle_of[p] != NONE)
+        twice +=
+            (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
+    return twice - triangles + (3 * triangles + open_edges) / 2;
+  }
+
+  /// Which of the other triangles cover an opening at the boundary: no point is in the circumcircle of
+  /// a triangle, and among evenly spaced points its radius is at most the mean edge (see
+  /// HoleWideningLimits).
+  /// \param edge mean edge around each point
+  std::vector<std::uint8_t> overOpenings (const std::vector<double>& edge, std::size_t others,
+                                          const RunContext& run) const
+  {
+    const std::vector<Eigen::Vector3d>& x = place_.positions;
+    BoundaryPeel peel (mesh_, x.size (), run);
+    std::vector<MeshEdge> edges = peel.edges ();
+    while (!edges.empty ()) {
+      const MeshEdge e = edges.back ();
+      edges.pop_back ();
+      const auto& [a, b, c] = mesh_.triangles[e.triangle];
+      if (e.triangle >= others || !peel.mayTake (e) ||
+          circumradius (x[a], x[b], x[c]) <= std::max ({edge[a], edge[b], edge[c]}))
+        continue;
+      peel.take (e);
+      for (const std::uint8_t side : {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)})
+        if (const MeshEdge beyond = mesh_.mate ({e.triangle, side}); beyond.triangle != NONE)
+          edges.push_back (beyond);
+    }
+    return std::move (peel).takenTriangles ();
+  }
+
+private:
+  bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
+
+  bool isFan (Index p, const std::vector<std::pair<Index, Index>>& star) const
+  {
+    const std::map<Index, Index> next (star.begin (), star.end ());
+    if (star.empty () || next.size () != star.size ())
+      return false;
+    std::set<Index> ends;
+    for (const auto& [from, to] : star)
+      ends.insert (to);
+    const auto open = std::find_if (star.begin (), star.end (), [&] (const auto& edge) {
+      return ends.count (edge.first) == 0;
+    });
+    const Index first = open == star.end () ? star.front ().first : open->first;
+    std::size_t count = 0;
+    Index last = first;
+    do {
+      last = next.at (last);
+      ++count;
+    } while (last != first && count < star.size () && next.count (last) != 0);
+    const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
+    return count == star.size () && (last == first || (stays (p) && stays (first) && stays (last)));
+  }
+
+  template <typename Visit>
+  void forEachOpenEdge (Visit&& visit) const
+  {
+    for (Index t = 0; t < mesh_.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (mesh_.neighbors[t][side] == NONE)
+          visit (mesh_.from ({t, side}), mesh_.to ({t, side}));
+  }
+
+  const Place& place_;
+  TriangleMesh mesh_;
+  std::vector<std::uint8_t> is_outside_; // of each point: some of its triangles may be missing
+  bool is_manifold_ = false;
+};
+
+} // namespace pcl::floater
