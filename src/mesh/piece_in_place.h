@@ -5,7 +5,9 @@
 
 #include "core/disjoint_sets.h"
 #include "core/geometry.h"
+#include "mesh/fold_repair.h"
 #include "mesh/open_boundary.h"
+#include "mesh/self_intersections.h"
 #include "mesh/two_sides.h"
 
 #include <algorithm>
@@ -103,6 +105,22 @@ public:
           edges.push_back (beyond);
     }
     return std::move (peel).takenTriangles ();
+  }
+
+  /// Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
+  /// without a triangle.
+  std::size_t faults (const RunContext& run) const
+  {
+    std::size_t count = findFolds (mesh_, place_.positions, run).size () +
+                        findSelfIntersections (mesh_.triangles, place_.positions, run).size ();
+    forEachOpenEdge ([&] (Index from, Index to) {
+      if ((isInside (from) || isInside (to)) &&
+          (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
+        ++count;
+    });
+    for (std::size_t p = 0; p < place_.positions.size (); ++p)
+      count += place_.is_free[p] != 0 && mesh_.triangle_of[p] == NONE ? 1 : 0;
+    return count;
   }
 
 private:

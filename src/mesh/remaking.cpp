@@ -61,7 +61,10 @@ public:
     misfits = after.misfits ();
     for (Index& p : misfits)
       p = points[p];
-    if (!misfits.empty () || !after.isManifold () || after.twiceHandles () > before.twiceHandles ())
+    if (!misfits.empty () || !after.isManifold () ||
+        after.twiceHandles () > before.twiceHandles () ||
+        static_cast<double> (after.faults (run_)) >
+            limits_.faults_left * static_cast<double> (before.faults (run_)))
       return std::nullopt;
     NewZone result;
     std::vector<double> edges;

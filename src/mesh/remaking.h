@@ -12,6 +12,8 @@ struct RemakingLimits
   DisturbanceLimits disturbance;
   double longest_edge = 6.0; ///< in mean edges around its ends before; a longer one is a lid on an
                              ///< opening
+  double faults_left = 0.6; ///< share of the faults of a zone that may be left. A slit along a true
+                            ///< fold has two open edges for each folded one that closes it
 };
 
 /// What remakeZones () did.
@@ -25,9 +27,10 @@ struct Remaking
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that came
 /// out wrong once more, narrower each time, but wider where the new triangles did not fit to those
 /// around. A zone stays as it was if its new triangles are no manifold with those around, have a
-/// handle more or a lid on an opening; and if the sides of pieces of the mesh contradict each other.
-/// Small triangles over an opening at the boundary go again. Components may come out with either
-/// side as the front. O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
+/// handle more, a lid on an opening, or not clearly fewer faults (PieceInPlace::faults); if the
+/// sides of pieces of the mesh contradict each other. Small triangles over an opening at the
+/// boundary go again. Components may come out with either side as the front. O(n), plus some 60
+/// microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
