@@ -47,8 +47,7 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
          const Request& request)
 {
   request.run.beginStage (Stage::CHECK);
-  return checkMesh (mesh, points, geometry.meshSpacing (), request.run,
-                    request.limits.check);
+  return checkMesh (mesh, points, geometry.meshSpacing (), request.run, request.limits.check);
 }
 
 Points
