@@ -8,7 +8,6 @@
 #include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
-#include "view/ray_evidence.h"
 
 #include <algorithm>
 #include <array>
@@ -192,8 +191,6 @@ facingHints (const Points& points, const Request& request)
       request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
   if (may_be_seen && isSensorKnown (request.sensor_origin))
     hints.sensor = (sensor - points.centre) / points.scale;
-  hints.is_scan = hints.sensor && mayBeSeenFrom (points.positions, {*hints.sensor, false},
-                                                 request.limits.view.evidence, request.run);
   return hints;
 }
 

@@ -33,8 +33,7 @@ struct FacingLimits
 
   /// Share of the mesh that is visible from the sensor; and of an object, area facing the sensor
   /// minus area facing away, by solid angle. If both are above, it was seen from there: one scan
-  /// has 1 minus its noise; a whole body, half hidden, has 0. See also FacingHints::is_scan: noise
-  /// of half a spacing leaves 0.5.
+  /// has 1 minus its noise; a whole body, half hidden, has 0.
   double seen_share = 0.8;
 
   /// Area of a component whose input normals point to one side minus the other, as a share of its
@@ -84,7 +83,6 @@ struct FacingLimits
 struct FacingHints
 {
   std::optional<Eigen::Vector3d> sensor; ///< position of the sensor, if known
-  bool is_scan = false;      ///< the points do not contradict that the sensor saw them all
   bool is_one_view = false;  ///< all open components already have the same orientation: towards the
                              ///< unknown sensor, or away from it
   bool faces_sensor = false; ///< all open components face the sensor already
@@ -145,8 +143,8 @@ struct MeshFacing
 ///
 /// This is Facing::AUTO, and the fallback of the other choices. With OUTWARDS, a sheet faces its
 /// more visible side, however small the difference; if it is within chance, the side to which it
-/// bulges. INWARDS is the opposite of it. With UP and VIEWPOINT, every component is oriented by itself. O(n log n), about 0.3
-/// microseconds per point of a body.
+/// bulges. INWARDS is the opposite of it. With UP and VIEWPOINT, every component is oriented by
+/// itself. O(n log n), about 0.3 microseconds per point of a body.
 MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run);

@@ -32,7 +32,7 @@ public:
 
   void judge ()
   {
-    const bool is_scan = mayFaceSensor () && (hints_.is_scan || isSeenFrom (*hints_.sensor));
+    const bool is_scan = mayFaceSensor () && isSeenFrom (*hints_.sensor);
     std::vector<Index> open;
     for (Index o = 0; o < judged_.size (); ++o) {
       const FacingSums& sums = objects_.sums[o];
@@ -60,8 +60,7 @@ public:
       }
       else if (!by_side && hints_.faces_sensor)
         decide (o, FacingRule::SENSOR, false, 1.0);
-      else if (!by_side && is_scan &&
-               std::abs (sums.seen) >= (hints_.is_scan ? 0.0 : limits_.seen_share) * sums.in_sight)
+      else if (!by_side && is_scan && std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
         decide (o, FacingRule::SENSOR, sums.seen < 0.0,
                 0.5 + 0.5 * std::abs (sums.seen) / sums.in_sight);
       else if (!by_side && isRoom (sums, limits_)) {

@@ -20,10 +20,7 @@ RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
-  constexpr double STRAIGHT =
-      0.2;                        // noise of 0.3 spacings along the surface has 0.1, faces 0.3; ...
-  constexpr double NEARLY = 0.02; // ... gentle slopes less, but across there is hardly anything
-  constexpr double PLANAR = 0.05;
+  constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
   const std::vector<Eigen::Vector3d>& positions = points.positions;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
   std::size_t looked_at = 0, in_rows = 0;
@@ -46,9 +43,7 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
   rows.share = static_cast<double> (in_rows) / static_cast<double> (looked_at);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes (along);
   rows.across = axes.eigenvectors ().col (0);
-  const Eigen::Vector3d& squares = axes.eigenvalues ();
-  rows.are_straight =
-      squares[1] < (squares[0] < PLANAR * squares[1] ? NEARLY : STRAIGHT) * squares[2];
+  rows.are_straight = axes.eigenvalues ()[1] < STRAIGHT * axes.eigenvalues ()[2];
   return rows;
 }
 

@@ -277,26 +277,6 @@ TEST (FacingChoices, InwardsIsTheOppositeOfOutwards)
   EXPECT_EQ (shareFacing (run (dome, {Facing::INWARDS}), dome, DOWN), 1.0);
 }
 
-// Noise of half the spacing: the rays do not show that it is a scan, but nothing contradicts the
-// place that is told, and connected as seen from there, it would have folds by the hundred.
-TEST (FacingChoices, ANoisyScanFacesThePlaceThatIsTold)
-{
-  constexpr double STEP = 0.03;
-  RandomStream random (7);
-  Positions wall;
-  for (int row = 0; row < 50; ++row)
-    for (int column = 0; column < 50; ++column) {
-      const auto around = [&] (int at) { return STEP * (at + 0.8 * random.uniform ()); };
-      wall.emplace_back (around (column), around (row), 0.5 * STEP * random.normal ());
-    }
-  const Vector3d below (0.7, 0.8, -2.0);
-  const Result found = run (wall, {Facing::AUTO, {}, below});
-  EXPECT_FALSE (found.report.is_view);
-  EXPECT_EQ (partsBy (found, FacingRule::SENSOR), 1U);
-  EXPECT_GT (shareFacing (found, wall, DOWN), 0.8);
-  EXPECT_LT (20 * found.report.check.folds, found.triangles.size ());
-}
-
 // A scan that is connected as its sensor saw it faces the sensor, unless something else decides.
 TEST (FacingChoices, OfASingleScan)
 {

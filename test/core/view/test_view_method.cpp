@@ -153,8 +153,7 @@ TEST (ViewMethod, ASensorInTheFileDecidesWhereThePointsDoNotTell)
       const Eigen::Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
       area[normal.dot (scan.viewpoint - positions[a]) > 0.0 ? 1 : 0] += normal.norm ();
     }
-    EXPECT_GT (area[1], 0.8 * area.sum ()) << seed;
-    EXPECT_LT (50 * result.report.check.folds, result.triangles.size ()) << seed;
+    EXPECT_GT (area[1], 0.95 * area.sum ()) << seed;
   }
 }
 
