@@ -164,6 +164,22 @@ bent (double radius)
   };
 }
 
+/// An open sheet, folded to 30 degrees along its middle.
+inline KnownSurface
+foldedSheet (std::uint64_t seed)
+{
+  constexpr double HEIGHT = 30.0;
+  KnownSurface made = sheet (
+      {resample (rectangle (50.0, HEIGHT, {-25.0, 0.0}), 1.0)},
+      [] (const Eigen::Vector2d& p) {
+        return Eigen::Vector3d (std::abs (p.x ()) * std::cos (PI / 12.0), p.y (),
+                                p.x () * std::sin (PI / 12.0));
+      },
+      seed);
+  made.sharp_length = HEIGHT;
+  return made;
+}
+
 /// A round sheet of radius 20 folded over along a line beside its middle.
 inline KnownSurface
 taco (double gap, std::uint64_t seed)

@@ -284,6 +284,8 @@ cases ()
       roof.sharp_length = 40.0; // its eaves
       return roof;
     });
+  for (const std::uint64_t seed : {1, 2, 3})
+    add ("fold_seed_" + std::to_string (seed), [=] { return foldedSheet (seed); });
   // Outliers, several components.
   add ("sphere_outliers", [] { return withOutliers (sphere (3000, 6), 20, 12.0, 7); });
   add ("sphere_outliers_near", [] { return withOutliers (sphere (3000, 6), 20, 4.0, 7); });

@@ -84,7 +84,7 @@ invariants ()
       options = samples::discOptions ();
     one.has_normals = name == "normals";
     if (name == "holes" || name == "denoised") // hole fillings and noise are sampled anew
-      one.moved_share = 0.05;
+      one.moved_share = 0.06;
     if (name == "view") // the place that is found decides diagonals
       one.moved_share = 0.5;
     if (name == "holes")

@@ -7,7 +7,6 @@
 #include "mesh/two_sides.h"
 #include "mesh_oracle.h"
 #include "points/neighbors.h"
-#include "random_stream.h"
 
 #include <gtest/gtest.h>
 
@@ -131,42 +130,6 @@ TEST (Remaking, KeepsOpenings)
   };
   EXPECT_EQ (remake (12).zones + remake (12).failed, 0U);
   EXPECT_GT (remake (5).zones + remake (5).failed, 0U);
-}
-
-// A sheet folded to 30 degrees, with a slit along the fold. The loop around the slit and the sheet is
-// a gap there only. Without the fold, it is a boundary.
-TEST (Remaking, ClosesTheSlitOfAFold)
-{
-  const auto remake = [] (double half_angle) {
-    constexpr Index HALF = 14, LENGTH = 36;
-    RandomStream random (1);
-    samples::Mesh sheet = samples::cells (2 * HALF, LENGTH, [&] (Index x, Index y) {
-      const double across = x == HALF ? 0.0 : static_cast<double> (x) - HALF;
-      const auto jitter = [&] { return 0.3 * (random.uniform () - 0.5); };
-      const double way = across + (across == 0.0 ? 0.0 : jitter ());
-      return Eigen::Vector3d (std::abs (way) * std::sin (half_angle), y + jitter (),
-                              way * std::cos (half_angle));
-    });
-    Index triangle = 0;
-    sheet.triangles.erase (std::remove_if (sheet.triangles.begin (), sheet.triangles.end (),
-                                           [&] (const Triangle&) {
-                                             const Index cell = triangle++ / 2;
-                                             const Index row = cell / (2 * HALF);
-                                             return cell % (2 * HALF) == HALF && row > 0 &&
-                                                    row % 12 != 6;
-                                           }),
-                           sheet.triangles.end ());
-    TriangleMesh mesh = samples::connected (sheet);
-    CrossingPairs crossing;
-    remakeZones (mesh, sheet.positions, neighborsOf (sheet.positions),
-                 std::vector<float> (sheet.positions.size (), 1.2F), crossing, {}, 1);
-    return samples::topologyOf (mesh.triangles);
-  };
-  const samples::Topology folded = remake (PI / 12.0 * 5.0), flat = remake (0.0);
-  EXPECT_TRUE (folded.manifold);
-  EXPECT_EQ (folded.loops.size (), 1U);
-  EXPECT_EQ (folded.euler, 1);
-  EXPECT_GT (flat.loops.size (), 1U);
 }
 
 } // namespace
