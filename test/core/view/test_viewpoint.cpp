@@ -183,18 +183,6 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   EXPECT_LT (rowsOf (random).share, 0.5);
 }
 
-// Rows with gentle slopes, which tell the plane of their rays.
-TEST (RowEvidence, OfLinesAcrossGentleWaves)
-{
-  Positions waves;
-  for (int row = 0; row < 20; ++row)
-    for (int i = 0; i < 200; ++i)
-      waves.emplace_back (i, 10.0 * row, 8.0 * std::sin (0.05 * i + 0.3 * row));
-  const RowEvidence rows = rowsOf (waves);
-  EXPECT_FALSE (rows.are_straight);
-  EXPECT_GT (std::abs (rows.across.y ()), 0.999);
-}
-
 std::optional<Viewpoint>
 searchEven (const Points& points)
 {
