@@ -54,10 +54,11 @@ knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin
   const Viewpoint viewpoint{
       (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
   const EvidenceLimits& evidence = request.limits.view.evidence;
-  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run) ||
-      (isSensorKnown (sensor_origin) &&
-       mayBeSeenFrom (points.positions, viewpoint, evidence, request.run)))
+  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
     return viewpoint;
+  if (isSensorKnown (sensor_origin) &&
+      mayBeSeenFrom (points.positions, viewpoint, evidence, request.run))
+    return Viewpoint{viewpoint.place, false, true};
   return {};
 }
 
@@ -94,8 +95,9 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   LocalGeometry geometry;
   geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
-  const double most_unused =
-      limits.view.largest_unused_share * static_cast<double> (points.size ());
+  const double most_unused = (viewpoint.is_only_told ? limits.view.largest_unused_if_told
+                                                     : limits.view.largest_unused_share) *
+                             static_cast<double> (points.size ());
   const bool is_doubtful = static_cast<double> (found.unused.size ()) > most_unused;
   if (options.view.use != ViewUse::GIVEN && is_doubtful &&
       (static_cast<double> (found.unused.size ()) >

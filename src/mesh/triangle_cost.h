@@ -145,7 +145,8 @@ private:
   std::size_t asked_ = 0;
 };
 
-/// Whether a triangle is bad: turned (see CostLimits), or more than 90 degrees from a neighbouring one.
+/// Whether a triangle is bad: turned (see CostLimits), or more than 90 degrees from a neighbouring
+/// one.
 /// \param normal_of normal of a triangle, of any length
 template <typename NormalOf>
 bool

@@ -37,6 +37,9 @@ struct ViewLimits
       0.25; ///< the same, of all unused points, also those alone in gaps.
             ///< Measured: at most 0.15 in generated scans, 0.21 in a
             ///< real one of 32 rings; 0.37 in profiles far apart
+  double largest_unused_if_told =
+      0.01; ///< the same if only the file tells the viewpoint. Scans from
+            ///< several places, of which it tells one, have 0.013 to 0.035
 };
 
 struct ViewSettings
