@@ -1,26 +1,164 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The compiled part of the Python module pcl_floater. The part in Python checks what arrays it
-// gets, and makes exceptions and meshes of what this one returns.
+// The compiled part of the Python module pcl_floater. The part in Python checks what it is given, and
+// makes exceptions and meshes of what this one returns.
 #include "input/input.h"
-#include "keywords.h"
 #include "options/check_options.h"
+#include "options/option_rows.h"
 #include "report_json.h"
-#include "result_arrays.h"
 #include "watch.h"
 
+#include <pcl/surface/floater/reconstruct.h>
+#include <pcl/surface/floater/vertex_normals.h>
+
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <chrono>
-#include <cmath>
+#include <cstring>
+#include <memory>
 #include <numeric>
 
 namespace py = pybind11;
 
 namespace pcl::floater {
 namespace {
+/// Takes the options that a dict has, each under the name that the tool has for it.
+struct OptionsReader
+{
+  const py::dict& given;
+
+  template <typename Value>
+  void operator() (const OptionRow& row, Value& value)
+  {
+    if (given.contains (row.name))
+      value = given[row.name].cast<Value> ();
+  }
+  template <typename Number>
+  void operator() (const OptionRow& row, Number& value, const NumberRange&)
+  {
+    (*this) (row, value);
+  }
+  template <typename Enum, std::size_t N>
+  void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
+  {
+    std::string word;
+    (*this) (row, word);
+    for (const auto& choice : choices)
+      if (word == choice.first)
+        value = choice.second;
+  }
+  void operator() (const OptionRow& row, HoleOptions& holes, LengthUnit unit)
+  {
+    double size = 0.0;
+    (*this) (row, size);
+    if (size != 0.0) {
+      holes.largest_hole = size;
+      holes.unit = unit;
+    }
+  }
+  void operator() (const OptionRow& row, ViewOptions& view)
+  {
+    if (!given.contains (row.name))
+      return;
+    const py::object place = given[row.name];
+    view.use = !py::isinstance<py::str> (place)       ? ViewUse::GIVEN
+               : place.cast<std::string> () == "auto" ? ViewUse::AUTO
+                                                      : ViewUse::NEVER;
+    if (view.use == ViewUse::GIVEN)
+      view.viewpoint = place.cast<std::array<double, 3>> ();
+  }
+};
+
+/// Copies rows of three numbers, of float or double, wherever they are in memory. It is the only copy
+/// that is made, and needs no lock.
+/// \tparam Vector of Eigen, with three elements
+template <typename Vector>
+std::vector<Vector>
+copyRows (const py::buffer_info& info)
+{
+  std::vector<Vector> rows (static_cast<std::size_t> (info.shape[0]));
+  const auto copy = [&info, &rows] (auto number) {
+    const char* row = static_cast<const char*> (info.ptr);
+    for (Vector& vector : rows) {
+      for (py::ssize_t axis = 0; axis < 3; ++axis) {
+        std::memcpy (&number, row + axis * info.strides[1], sizeof (number)); // may be unaligned
+        vector[axis] = static_cast<typename Vector::Scalar> (number);
+      }
+      row += info.strides[0];
+    }
+  };
+  info.itemsize == sizeof (float) ? copy (float{}) : copy (double{});
+  return rows;
+}
+
+/// An array of a result, for Python without a copy: it keeps the whole result alive. NumPy takes it
+/// by the buffer protocol, so that the module depends on no version of NumPy's C interface.
+struct ResultArray
+{
+  std::shared_ptr<const void> owner;
+  const void* first = nullptr;
+  const char* format = "i"; ///< of the elements: "i", "f" or "d"
+  std::size_t rows = 0;
+  std::size_t columns = 0; ///< 0: an array of one dimension
+};
+
+py::buffer_info
+bufferOf (const ResultArray& array)
+{
+  static_assert (sizeof (int) == sizeof (std::uint32_t), "the format of the indices is i");
+  static_assert (sizeof (int) == sizeof (float), "the sizes of the formats i and f");
+  const auto size =
+      static_cast<py::ssize_t> (array.format[0] == 'd' ? sizeof (double) : sizeof (int));
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t> (array.rows)};
+  std::vector<py::ssize_t> strides{size};
+  if (array.columns > 0) {
+    shape.push_back (static_cast<py::ssize_t> (array.columns));
+    strides = {size * shape.back (), size};
+  }
+  static double none = 0.0; // an empty array has an address, too
+  // The arrays are the user's, who may change them. The report in C++ is not read again.
+  void* first = array.rows > 0 ? const_cast<void*> (array.first) : &none;
+  return {first, size, array.format, static_cast<py::ssize_t> (shape.size ()), shape, strides};
+}
+
+/// \param owner of the values, which are numbers or arrays of numbers
+template <typename T>
+ResultArray
+arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
+{
+  if constexpr (std::is_arithmetic_v<T>)
+    return {owner, values.data (), "i", values.size (), 0};
+  else {
+    using Number = typename T::value_type;
+    const char* const format = std::is_same_v<Number, float>    ? "f"
+                               : std::is_same_v<Number, double> ? "d"
+                                                                : "i";
+    return {owner, values.data (), format, values.size (), sizeof (T) / sizeof (Number)};
+  }
+}
+
+/// The arrays by the names of the report, and "triangles" and "parameters". The indices of the core
+/// are unsigned, and here signed: every cloud index is below 2^31.
+py::dict
+arraysOfResult (const std::shared_ptr<const Result>& result)
+{
+  const Report& report = result->report;
+  py::dict arrays;
+  arrays["triangles"] = arrayOf (result, result->triangles);
+  arrays["loop"] = arrayOf (result, report.loop);
+  arrays["unused"] = arrayOf (result, report.unused);
+  arrays["outliers"] = arrayOf (result, report.outliers);
+  arrays["scatter"] = arrayOf (result, report.scatter);
+  arrays["non_finite"] = arrayOf (result, report.non_finite);
+  arrays["duplicates"] = arrayOf (result, report.duplicates);
+  arrays["parameters"] =
+      report.parameters.empty () ? py::none () : py::cast (arrayOf (result, report.parameters));
+  return arrays;
+}
+
 py::object
 toPython (const nlohmann::ordered_json& json)
 {
@@ -28,62 +166,45 @@ toPython (const nlohmann::ordered_json& json)
   return py::module_::import ("json").attr ("loads") (text);
 }
 
-/// \throws pybind11::value_error
-Input
-makeInput (const PointRows& rows, const py::object& normals, const py::object& sensor_origin,
-           const GivenOptions& asked)
-{
-  Input input;
-  if (!sensor_origin.is_none ()) {
-    input.sensor_origin = readPlace ("sensor_origin", sensor_origin);
-    for (const double coordinate : input.sensor_origin)
-      if (!std::isfinite (coordinate))
-        throw py::value_error ("sensor_origin must have finite coordinates");
-  }
-  const Facing facing = asked.options.facing;
-  const bool for_facing = facing == Facing::AUTO || facing == Facing::NORMALS;
-  if (normals.is_none ()) {
-    if (asked.use_input_normals)
-      throw py::value_error ("use_input_normals=True needs normals");
-  }
-  else {
-    if (!for_facing && !asked.use_input_normals)
-      throw py::value_error ("normals are given, but facing does not ask for them: leave them out, "
-                             "or set facing='normals' or use_input_normals=True");
-    const PointRows given (normals.cast<py::buffer> ());
-    if (given.size () != rows.size ())
-      throw py::value_error ("there are " + std::to_string (given.size ()) + " normals of " +
-                             std::to_string (rows.size ()) + " points; give one for each point");
-    auto copy = given.copy<Eigen::Vector3f> ();
-    if (asked.use_input_normals)
-      input.normals = copy;
-    if (for_facing)
-      input.facing_normals = std::move (copy);
-  }
-  input.cloud_size = rows.size ();
-  {
-    const py::gil_scoped_release release;
-    input.positions = rows.copy<Eigen::Vector3d> ();
-    input.cloud_index.resize (rows.size ());
-    std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
-  }
-  return input;
-}
-
 /// \param lattice_width of an organized cloud: points of a row; else 0
-/// \return status, message, what strict objects to, warnings, the part of the report that the core knows, and the arrays
+/// \param normals as many as points, or None
+/// \param sensor_origin three numbers, or None
+/// \param loop a list of indices
+/// \return status, message, what strict objects to, warnings, the part of the report that the core
+/// knows, and the arrays
 py::tuple
 run (const py::buffer& points, std::size_t lattice_width, const py::object& normals,
-     const py::object& sensor_origin, const py::dict& keywords, const py::object& progress)
+     const py::object& sensor_origin, bool use_input_normals, std::vector<std::uint32_t> loop,
+     const py::dict& given, const py::object& progress)
 {
-  GivenOptions asked = readKeywords (keywords);
-  Options& options = asked.options;
+  Options options;
+  visitOptions (options, OptionsReader{given});
+  options.disc.boundary.loop = std::move (loop);
+  if (options.disc.as_published)
+    choosePublished (options.disc, given.contains ("boundary"), given.contains ("ordering"));
   const Problem problem = checkOptions (options);
   if (problem.status == RunStatus::INVALID_OPTION)
     throw py::value_error (problem.message);
-  const PointRows rows (points);
-  Input input = makeInput (rows, normals, sensor_origin, asked);
+
+  Input input;
   input.lattice_width = lattice_width;
+  if (!sensor_origin.is_none ())
+    input.sensor_origin = sensor_origin.cast<std::array<double, 3>> ();
+  if (!normals.is_none ()) {
+    auto copy = copyRows<Eigen::Vector3f> (normals.cast<py::buffer> ().request ());
+    if (use_input_normals)
+      input.normals = copy;
+    if (options.facing == Facing::AUTO || options.facing == Facing::NORMALS)
+      input.facing_normals = std::move (copy);
+  }
+  const py::buffer_info rows = points.request ();
+  {
+    const py::gil_scoped_release release;
+    input.positions = copyRows<Eigen::Vector3d> (rows);
+    input.cloud_size = input.positions.size ();
+    input.cloud_index.resize (input.cloud_size);
+    std::iota (input.cloud_index.begin (), input.cloud_index.end (), 0U);
+  }
   if (const Problem facing = checkFacing (input, options))
     throw py::value_error (facing.message);
 
@@ -95,15 +216,15 @@ run (const py::buffer& points, std::size_t lattice_width, const py::object& norm
     const py::gil_scoped_release release;
     const auto start = std::chrono::steady_clock::now ();
     // The status of a cloud without points comes from the same function as for the class.
-    *result = rows.size () == 0 ? reconstruct (std::vector<Eigen::Vector3d> (), options)
-                                : reconstruct (std::move (input), options);
+    *result = input.positions.empty () ? reconstruct (std::vector<Eigen::Vector3d> (), options)
+                                       : reconstruct (std::move (input), options);
     seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
   }
   watch.rethrow ();
 
   const Report& report = result->report;
   nlohmann::ordered_json known;
-  known["options"] = optionsJson (effectiveOptions (options), asked.use_input_normals);
+  known["options"] = optionsJson (effectiveOptions (options), use_input_normals);
   known.update (resultJson (report));
   known["seconds"] = secondsJson (report.statistics);
   known["seconds"]["reconstruction"] = seconds;
@@ -111,15 +232,78 @@ run (const py::buffer& points, std::size_t lattice_width, const py::object& norm
                          report.warnings, toPython (known), arraysOfResult (result));
 }
 
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// \param buffer contiguous, of the shape (m, 3) of uint32
+Triangles
+copyTriangles (const py::buffer& buffer)
+{
+  const py::buffer_info info = buffer.request ();
+  const auto* first = static_cast<const Triangles::value_type*> (info.ptr);
+  return {first, first + info.shape[0]};
+}
+
+/// \return an array of the shape (n, 3) of float
+ResultArray
+normalsOf (const py::buffer& points, const py::buffer& triangles, int threads)
+{
+  const py::buffer_info rows = points.request ();
+  const Triangles corners = copyTriangles (triangles);
+  const auto normals = std::make_shared<std::vector<Eigen::Vector3f>> ();
+  {
+    const py::gil_scoped_release release;
+    *normals = vertexNormals (copyRows<Eigen::Vector3d> (rows), corners, threads);
+  }
+  return arrayOf (normals, *normals);
+}
+
+/// \return status, message, figures, and the arrays
+py::tuple
+textureOf (const py::buffer& points, const py::buffer& triangles, double largest_stretch,
+           bool whole_discs, int threads, const py::object& progress)
+{
+  const py::buffer_info rows = points.request ();
+  const Triangles corners = copyTriangles (triangles);
+  TextureOptions options;
+  options.largest_stretch = largest_stretch;
+  options.whole_discs = whole_discs;
+  options.threads = threads;
+  Watch watch (progress);
+  watch.attachTo (options);
+  const auto texture = std::make_shared<TextureCoordinates> ();
+  {
+    const py::gil_scoped_release release;
+    *texture = computeTextureCoordinates (copyRows<Eigen::Vector3d> (rows), corners, options);
+  }
+  watch.rethrow ();
+  py::dict figures;
+  figures["charts"] = texture->chart_count;
+  figures["flipped"] = texture->flipped;
+  figures["stretch"] = texture->stretch;
+  figures["largest_stretch"] = texture->largest_stretch;
+  figures["area_used"] = texture->area_used;
+  figures["seam_length"] = texture->seam_length;
+  figures["gutter"] = texture->gutter;
+  py::dict arrays;
+  arrays["coordinates"] = arrayOf (texture, texture->coordinates);
+  arrays["points"] = arrayOf (texture, texture->points);
+  arrays["corners"] = arrayOf (texture, texture->corners);
+  arrays["charts"] = arrayOf (texture, texture->charts);
+  arrays["seams"] = arrayOf (texture, texture->seams);
+  return py::make_tuple (statusName (texture->status), texture->message, figures, arrays);
+}
+
 } // namespace
 } // namespace pcl::floater
 
 PYBIND11_MODULE (_core, module)
 {
+  using namespace pcl::floater;
   module.doc () = "The compiled part of pcl_floater.";
   module.attr ("__version__") = PCL_FLOATER_VERSION;
-  pcl::floater::defineResultArray (module);
-  module.def ("run", &pcl::floater::run);
-  module.def ("options", [] { return pcl::floater::toPython (pcl::floater::optionTableJson ()); });
-  pcl::floater::defineMeshFunctions (module);
+  py::class_<ResultArray> (module, "ResultArray", py::buffer_protocol ()).def_buffer (&bufferOf);
+  module.def ("run", &run);
+  module.def ("options", [] { return toPython (optionTableJson ()); });
+  module.def ("vertex_normals", &normalsOf);
+  module.def ("texture_coordinates", &textureOf);
 }

@@ -18,8 +18,7 @@ import textwrap
 
 import numpy as np
 
-from . import _core
-from ._arrays import as_rows as _rows
+from . import _arrays, _core
 from ._core import __version__
 from ._errors import FloaterError
 from ._on_meshes import Texture, texture_coordinates, vertex_normals
@@ -88,9 +87,9 @@ def _as_list(name, given):
     """The rows of a list, or of an organized cloud, and the number of columns of that, else 0."""
     array = np.asanyarray(given)
     if array.ndim != 3 or array.shape[2] != 3:
-        return _rows(name, given, "(n, 3) or (rows, columns, 3)"), 0
+        return _arrays.as_rows(name, given, "(n, 3) or (rows, columns, 3)"), 0
     rows, columns = array.shape[:2]
-    return _rows(name, array.reshape(-1, 3)), columns if rows > 1 and columns > 1 else 0
+    return _arrays.as_rows(name, array.reshape(-1, 3)), columns if rows > 1 and columns > 1 else 0
 
 
 def _loop(given):
@@ -105,10 +104,23 @@ def _loop(given):
     return array.tolist()
 
 
+def _options(given):
+    """The options that were given, of the types of the table."""
+    table = {row["name"]: row for row in _TABLE}
+    options = {name: value for name, value in given.items() if value is not None or name not in _BY_METHOD}
+    for name in options:
+        if name not in table:
+            raise TypeError(f"reconstruct() has no argument {name!r}")
+        options[name] = _arrays.as_option(table[name], options[name])
+    if options.get("largest_hole") and options.get("largest_hole_length"):
+        raise ValueError("largest_hole and largest_hole_length are one size in two units; give one of them")
+    return options
+
+
 def _signature_and_text():
     """Of the options: the parameters of `reconstruct`, and what its documentation says of them."""
     parameters, text = [], ""
-    for row in _core.options():
+    for row in _TABLE:
         default = None if row["name"] in _BY_METHOD else row["default"]
         parameters.append(inspect.Parameter(row["name"], inspect.Parameter.KEYWORD_ONLY, default=default))
         values = row["values"]
@@ -120,6 +132,7 @@ def _signature_and_text():
     return parameters, textwrap.indent(text, "    ").strip()
 
 
+_TABLE = _core.options()
 # Their defaults depend on the method.
 _BY_METHOD = ("boundary", "ordering")
 _PARAMETERS, _TEXT = _signature_and_text()
@@ -187,25 +200,33 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
     >>> mesh.report["check"]["genus"]
     1
     """
-    options = {name: value for name, value in options.items() if value is not None or name not in _BY_METHOD}
-    options["use_input_normals"] = use_input_normals
-    if loop is not None:
-        options["loop"] = _loop(loop)
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be a callable, not {progress!r}")
-    if not isinstance(strict, (bool, np.bool_)):
-        raise TypeError(f"strict must be True or False, not {strict!r}")
+    strict = _arrays.as_flag("strict", strict)
+    progress = _arrays.as_callable("progress", progress)
+    use_input_normals = _arrays.as_flag("use_input_normals", use_input_normals)
     array, columns = _as_list("points", points)
+    options = _options(options)
+    if sensor_origin is not None:
+        sensor_origin = _arrays.as_place("sensor_origin", sensor_origin)
+        if not np.isfinite(sensor_origin).all():
+            raise ValueError("sensor_origin must have finite coordinates")
+    if normals is None and use_input_normals:
+        raise ValueError("use_input_normals=True needs normals")
+    if normals is not None:
+        normals = _as_list("normals", normals)[0]
+        if not use_input_normals and options.get("facing", "auto") not in ("auto", "normals"):
+            raise ValueError("normals are given, but facing does not ask for them: leave them out, or set "
+                             "facing='normals' or use_input_normals=True")
+        if len(normals) != len(array):
+            raise ValueError(f"there are {len(normals)} normals of {len(array)} points; give one for each point")
     status, message, objection, warnings, known, arrays = _core.run(
-        array, columns, None if normals is None else _as_list("normals", normals)[0], sensor_origin,
-        options, progress)
+        array, columns, normals, sensor_origin, use_input_normals, [] if loop is None else _loop(loop), options, progress)
     arrays = {name: None if values is None else np.asarray(values) for name, values in arrays.items()}
     if strict and objection:
         status, message = "REFUSED", f"{objection}, which strict does not allow"
     report = {
         "version": __version__,
         "input": {"points": len(array), "coordinates": "float" if array.itemsize == 4 else "double"},
-        "options": known.pop("options"), "strict": bool(strict), "status": status, "message": message,
+        "options": known.pop("options"), "strict": strict, "status": status, "message": message,
         "warnings": list(warnings), **known}
     if status != "SUCCESS":
         raise FloaterError(message, status, _with_lists(report, arrays))

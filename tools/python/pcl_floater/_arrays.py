@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the functions take for arrays, and in which words they refuse others."""
+"""What the functions take, and in which words they refuse what else they are given."""
 import numpy as np
 
 
@@ -18,6 +18,8 @@ def as_rows(name, given, shapes="(n, 3)"):
                         f"numpy.asarray({name}, float) converts it if it can be")
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name} must have the shape {shapes}, not {array.shape}")
+    if len(array) >= 2**31:
+        raise ValueError("more than 2147483647 points; reconstruct parts of the cloud")
     return array
 
 
@@ -31,3 +33,59 @@ def as_triangles(given):
     if array.size > 0 and not 0 <= array.min() <= array.max() < 2**31:
         raise ValueError("triangles have an index that is negative, or too large")
     return np.ascontiguousarray(array, np.uint32)
+
+
+def _is_bool(given):
+    return isinstance(given, (bool, np.bool_))
+
+
+def as_flag(name, given):
+    if not _is_bool(given):
+        raise TypeError(f"{name} must be True or False, not {given!r}")
+    return bool(given)
+
+
+def as_whole(name, given):
+    if _is_bool(given) or not hasattr(given, "__index__"):
+        raise TypeError(f"{name} must be a whole number, not {given!r}")
+    if not -2**31 <= given < 2**31:
+        raise ValueError(f"{name} must be a number of 32 bits, not {given!r}")
+    return int(given)
+
+
+def as_number(name, given):
+    if _is_bool(given) or not hasattr(given, "__float__"):
+        raise TypeError(f"{name} must be a number, not {given!r}")
+    return float(given)
+
+
+def as_place(name, given):
+    try:
+        place = [as_number(name, number) for number in given]
+    except TypeError:
+        raise TypeError(f"{name} must be three numbers, not {given!r}") from None
+    if len(place) != 3:
+        raise ValueError(f"{name} must be three numbers, not {given!r}")
+    return place
+
+
+def as_callable(name, given):
+    if given is not None and not callable(given):
+        raise TypeError(f"{name} must be a callable, not {given!r}")
+    return given
+
+
+def as_option(row, given):
+    """The value of an option, of which the table has the row."""
+    name, kind, values = row["name"], row["kind"], row["values"]
+    if kind == "place":
+        words = "'auto', 'none' or three numbers"
+        if given is None:
+            raise TypeError(f"{name} must be {words}; 'none' says that the cloud is no single scan")
+        if isinstance(given, str) and given not in ("auto", "none"):
+            raise ValueError(f"{name} must be {words}, not {given!r}")
+        return given if isinstance(given, str) else as_place(name, given)
+    if kind == "word" and not (isinstance(given, str) and given in values):
+        raise (ValueError if isinstance(given, str) else TypeError)(
+            f"{name} must be one of {', '.join(map(repr, values))}, not {given!r}")
+    return {"word": lambda _, word: word, "bool": as_flag, "int": as_whole, "float": as_number}[kind](name, given)

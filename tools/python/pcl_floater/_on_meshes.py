@@ -4,7 +4,7 @@
 import numpy as np
 
 from . import _core
-from ._arrays import as_rows, as_triangles
+from ._arrays import as_callable, as_flag, as_number, as_rows, as_triangles, as_whole
 from ._errors import FloaterError
 
 
@@ -119,14 +119,9 @@ def texture_coordinates(points, triangles, *, largest_stretch=1.06, whole_discs=
     0
     """
     rows, corners = _mesh(points, triangles)
-    if isinstance(largest_stretch, bool) or not isinstance(largest_stretch, (int, float, np.number)):
-        raise TypeError(f"largest_stretch must be a number, not {largest_stretch!r}")
-    if not isinstance(whole_discs, (bool, np.bool_)):
-        raise TypeError(f"whole_discs must be True or False, not {whole_discs!r}")
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be a callable, not {progress!r}")
     status, message, report, arrays = _core.texture_coordinates(
-        rows, corners, largest_stretch, bool(whole_discs), _threads(threads), progress)
+        rows, corners, as_number("largest_stretch", largest_stretch), as_flag("whole_discs", whole_discs),
+        _threads(threads), as_callable("progress", progress))
     if status == "INVALID_OPTION":
         raise ValueError(message)
     if status != "SUCCESS":
@@ -142,8 +137,7 @@ def _mesh(points, triangles):
 
 
 def _threads(given):
-    if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
-        raise TypeError(f"threads must be a whole number, not {given!r}")
-    if not 0 <= given < 2**31:
-        raise ValueError("the number of threads must be 0 (all cores) or more, and below 2**31")
-    return int(given)
+    threads = as_whole("threads", given)
+    if threads < 0:
+        raise ValueError("the number of threads must be 0 (all cores) or more")
+    return threads
