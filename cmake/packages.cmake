@@ -72,59 +72,45 @@ set (what_it_is
 "It turns an unorganized point cloud into a triangle mesh whose vertices are
 the points of the cloud. The surface may be open or closed, with holes, handles
 or several components, or a single scan. It needs no normals and no tuning.")
-set (CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
-set (CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set (CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+# pcl_floater_package (<component> <section> <title> <what it has> [<field> <value>...])
+# Other fields are those of CPACK_DEBIAN_<component>_.
+macro (pcl_floater_package component section title text)
+  string (TOUPPER ${component} upper)
+  set (fields PACKAGE_NAME ${${component}_package} PACKAGE_SECTION ${section} ${ARGN})
+  while (fields)
+    list (POP_FRONT fields field value)
+    set (CPACK_DEBIAN_${upper}_${field} "${value}")
+  endwhile ()
+  set (CPACK_DEBIAN_${upper}_DESCRIPTION "${title}\n${what_it_is}\n.\n${text}")
+endmacro ()
+
+pcl_floater_package (library libs "surface reconstruction for the Point Cloud Library"
+                     "This package has the shared library." PACKAGE_SHLIBDEPS ON
+                     # The linear systems of discs are solved 2.5 times as fast with it as with the reference BLAS.
+                     PACKAGE_RECOMMENDS libopenblas0-pthread)
 set (CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set (CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 file (WRITE "${debian_folder}/triggers" "activate-noawait ldconfig\n")
 set (CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${debian_folder}/triggers")
-# The linear systems of discs are solved 2.5 times as fast with it as with the reference BLAS.
-set (CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libopenblas0-pthread)
-set (CPACK_DEBIAN_LIBRARY_DESCRIPTION
-"surface reconstruction for the Point Cloud Library
-${what_it_is}
-.
-This package has the shared library.")
+set (development_depends "${library_package} (= ${debian_version})"
+     "libpcl-dev (>= ${PCL_VERSION_MAJOR}.${PCL_VERSION_MINOR})"
+     "libpcl-dev (<< ${PCL_VERSION_MAJOR}.${next_pcl_minor}~)" "libeigen3-dev (>= 3.4)")
+list (JOIN development_depends ", " development_depends)
+pcl_floater_package (development libdevel "surface reconstruction for the Point Cloud Library - headers"
+                     "This package has the headers, and what CMake and pkg-config need."
+                     PACKAGE_DEPENDS "${development_depends}" PACKAGE_SUGGESTS ${documentation_package})
 
-set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
-set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set (pcl_version "${PCL_VERSION_MAJOR}.${PCL_VERSION_MINOR}")
-set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-     "${library_package} (= ${debian_version}), libpcl-dev (>= ${pcl_version})"
-     "libpcl-dev (<< ${PCL_VERSION_MAJOR}.${next_pcl_minor}~), libeigen3-dev (>= 3.4)")
-list (JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
-set (CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS ${documentation_package})
-set (CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-"surface reconstruction for the Point Cloud Library - headers
-${what_it_is}
-.
-This package has the headers, and what CMake and pkg-config need.")
-
-set (CPACK_DEBIAN_TOOLS_PACKAGE_NAME ${tools_package})
-set (CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
-set (CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set (CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS libopenblas0-pthread)
-set (CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS pcl-tools)
-set (CPACK_DEBIAN_TOOLS_DESCRIPTION
-"surface reconstruction from point clouds - tools
-${what_it_is}
-.
-This package has the tools: pcl_floater_reconstruct makes a mesh of a cloud,
-pcl_floater_picture draws it, and pcl_floater_generate writes sample clouds.")
+pcl_floater_package (tools graphics "surface reconstruction from point clouds - tools"
+"This package has the tools: pcl_floater_reconstruct makes a mesh of a cloud,
+pcl_floater_picture draws it, and pcl_floater_generate writes sample clouds."
+                     PACKAGE_SHLIBDEPS ON PACKAGE_RECOMMENDS libopenblas0-pthread PACKAGE_SUGGESTS pcl-tools)
 
 # The tool contains the core, as those of the package of the tools do, and needs no other of these packages.
-set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_NAME ${distributed_package})
-set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_SECTION graphics)
-set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_SHLIBDEPS ON)
-set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_DEPENDS openmpi-bin) # mpirun
-set (CPACK_DEBIAN_DISTRIBUTED_PACKAGE_SUGGESTS ${tools_package})
-set (CPACK_DEBIAN_DISTRIBUTED_DESCRIPTION
-"surface reconstruction from point clouds - on several machines
-${what_it_is}
-.
-This package has the tool pcl_floater_distributed, which makes the same mesh as
-pcl_floater_reconstruct on any number of processes, by MPI.")
+pcl_floater_package (distributed graphics "surface reconstruction from point clouds - on several machines"
+"This package has the tool pcl_floater_distributed, which makes the same mesh as
+pcl_floater_reconstruct on any number of processes, by MPI."
+                     PACKAGE_SHLIBDEPS ON PACKAGE_DEPENDS openmpi-bin # mpirun
+                     PACKAGE_SUGGESTS ${tools_package})
 
 # The module contains the core, and needs no other of these packages. It is for one version of Python.
 # Python's own scripts make its byte code, and remove it.
@@ -133,25 +119,12 @@ foreach (script postinst prerm)
                   FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 endforeach ()
 math (EXPR next_python_minor "${PCL_FLOATER_PYTHON_MINOR} + 1")
-set (CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${python_package})
-set (CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set (CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set (CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-     "python3 (>= 3.${PCL_FLOATER_PYTHON_MINOR}~), python3 (<< 3.${next_python_minor}), python3-numpy")
+pcl_floater_package (python python "surface reconstruction from point clouds - Python module"
+                     "This package has the module pcl_floater, which takes arrays of NumPy."
+                     PACKAGE_SHLIBDEPS ON PACKAGE_RECOMMENDS libopenblas0-pthread PACKAGE_DEPENDS
+                     "python3 (>= 3.${PCL_FLOATER_PYTHON_MINOR}~), python3 (<< 3.${next_python_minor}), python3-numpy")
 set (CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${debian_folder}/python/postinst;${debian_folder}/python/prerm")
-set (CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS libopenblas0-pthread)
-set (CPACK_DEBIAN_PYTHON_DESCRIPTION
-"surface reconstruction from point clouds - Python module
-${what_it_is}
-.
-This package has the module pcl_floater, which takes arrays of NumPy.")
 
-set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME ${documentation_package})
-set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
-set (CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
-set (CPACK_DEBIAN_DOCUMENTATION_DESCRIPTION
-"surface reconstruction for the Point Cloud Library - documentation
-${what_it_is}
-.
-This package has the documentation.")
+pcl_floater_package (documentation doc "surface reconstruction for the Point Cloud Library - documentation"
+                     "This package has the documentation." PACKAGE_ARCHITECTURE all)
 include (CPack)
