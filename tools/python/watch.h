@@ -9,6 +9,7 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
+#include <type_traits>
 #include <utility>
 
 namespace pcl::floater {
@@ -24,17 +25,17 @@ public:
     handles_signals_ = threading.attr ("current_thread") ().is (threading.attr ("main_thread") ());
   }
 
-  void attachTo (Options& options)
+  /// \param options Options, or TextureOptions
+  template <typename AnyOptions>
+  void attachTo (AnyOptions& options)
   {
-    attachToRun (options);
+    options.cancelled_callback = [this] { return isCancelled (); };
     if (!progress_.is_none ())
+      options.progress_callback = [this] (double fraction) { tell (fraction); };
+    if constexpr (std::is_same_v<AnyOptions, Options>)
       options.stage_callback = [this] (Stage stage) { stage_ = stageName (stage); };
-  }
-
-  void attachTo (TextureOptions& options)
-  {
-    attachToRun (options);
-    stage_ = "texture";
+    else
+      stage_ = "texture";
   }
 
   /// To be called with the lock.
@@ -46,14 +47,6 @@ public:
   }
 
 private:
-  template <typename AnyOptions>
-  void attachToRun (AnyOptions& options)
-  {
-    options.cancelled_callback = [this] { return isCancelled (); };
-    if (!progress_.is_none ())
-      options.progress_callback = [this] (double fraction) { tell (fraction); };
-  }
-
   void tell (double fraction)
   {
     if (raised_)

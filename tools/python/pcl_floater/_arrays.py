@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the functions take, and in which words they refuse what else they are given."""
+import operator
+
 import numpy as np
 
 
@@ -46,11 +48,13 @@ def as_flag(name, given):
 
 
 def as_whole(name, given):
-    if _is_bool(given) or not hasattr(given, "__index__"):
-        raise TypeError(f"{name} must be a whole number, not {given!r}")
-    if not -2**31 <= given < 2**31:
+    try:
+        whole = operator.index(None if _is_bool(given) else given)
+    except TypeError:
+        raise TypeError(f"{name} must be a whole number, not {given!r}") from None
+    if not -2**31 <= whole < 2**31:
         raise ValueError(f"{name} must be a number of 32 bits, not {given!r}")
-    return int(given)
+    return whole
 
 
 def as_number(name, given):
