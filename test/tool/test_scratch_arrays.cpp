@@ -11,12 +11,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <new>
 #include <numeric>
 #include <thread>
@@ -33,29 +30,6 @@ constexpr bool IS_SANITIZED = false;
 #endif
 
 constexpr std::size_t MEGABYTE = std::size_t{1} << 20U;
-
-/// Bytes of a field of /proc/self/status, which counts in kB.
-std::size_t
-memoryStatus (const std::string& field)
-{
-  std::ifstream file ("/proc/self/status");
-  std::string word;
-  while (file >> word)
-    if (word == field + ":") {
-      std::size_t kilobytes = 0;
-      file >> kilobytes;
-      return kilobytes * 1024;
-    }
-  return 0;
-}
-
-template <typename T>
-void
-expectAll (const std::vector<T>& array, T value)
-{
-  EXPECT_EQ (std::count (array.begin (), array.end (), value),
-             static_cast<std::ptrdiff_t> (array.size ()));
-}
 
 constexpr std::size_t LIMIT = 240 * MEGABYTE;
 
@@ -83,40 +57,26 @@ struct ScratchArrays : testing::Test
   }
 };
 
-/// Writes all bytes, to detect an array that is too short or not writable.
-void
-expectUsable (void* pointer, std::size_t size, std::size_t alignment)
-{
-  ASSERT_NE (pointer, nullptr);
-  EXPECT_EQ (reinterpret_cast<std::uintptr_t> (pointer) % alignment, 0U);
-  auto* bytes = static_cast<std::uint8_t*> (pointer);
-  std::iota (bytes, bytes + size, std::uint8_t{1});
-  EXPECT_EQ (bytes[size - 1], static_cast<std::uint8_t> (size));
-}
-
-/// Sizes of small and large arrays, none of them a multiple of the page size.
+/// Sizes of small and large arrays, none of them a multiple of the page size. All bytes are written.
 void
 useAllForms ()
 {
-  const std::size_t usual = alignof (std::max_align_t);
   for (const std::size_t size :
        {std::size_t{1}, std::size_t{100}, LARGE_ARRAY - 1, LARGE_ARRAY + 1, 9 * LARGE_ARRAY + 7}) {
     SCOPED_TRACE (size);
     const auto use = [size] (void* pointer, std::size_t alignment) {
-      expectUsable (pointer, size, alignment);
+      EXPECT_EQ (reinterpret_cast<std::uintptr_t> (pointer) % alignment, 0U);
+      auto* bytes = static_cast<std::uint8_t*> (pointer);
+      std::iota (bytes, bytes + size, std::uint8_t{1});
+      EXPECT_EQ (bytes[size - 1], static_cast<std::uint8_t> (size));
       return pointer;
     };
+    const std::size_t usual = alignof (std::max_align_t), wide = 4096;
     ::operator delete (use (::operator new (size), usual));
-    ::operator delete[] (use (::operator new[] (size), usual));
+    ::operator delete[] (use (::operator new[] (size), usual), size);
     ::operator delete (use (::operator new (size, std::nothrow), usual), size);
-    ::operator delete[] (use (::operator new[] (size, std::nothrow), usual), size);
-    for (const std::size_t alignment : {std::size_t{64}, std::size_t{4096}, 4 * MEGABYTE}) {
-      const std::align_val_t aligned{alignment};
-      ::operator delete (use (::operator new (size, aligned), alignment), aligned);
-      ::operator delete[] (use (::operator new[] (size, aligned), alignment), size, aligned);
-      ::operator delete (use (::operator new (size, aligned, std::nothrow), alignment), aligned,
-                         std::nothrow);
-    }
+    ::operator delete (use (::operator new (size, std::align_val_t{wide}), wide),
+                       std::align_val_t{wide});
   }
   ::operator delete (nullptr);
   ::operator delete (::operator new (0));
@@ -157,43 +117,31 @@ TEST_F (ScratchArrays, FilesHaveNoNamesAndGoWithTheirArrays)
   EXPECT_EQ (scratchUse ().bytes, 0U);
 }
 
-/// Calls work (t) in several threads, and meanwhile() until all have ended.
-void
-runThreads (int count, const std::function<void (int)>& work,
-            const std::function<void ()>& meanwhile)
-{
-  std::atomic<int> at_work{count};
-  std::vector<std::thread> threads;
-  threads.reserve (static_cast<std::size_t> (count));
-  for (int t = 0; t < count; ++t)
-    threads.emplace_back ([&, t] {
-      work (t);
-      --at_work;
-    });
-  while (at_work > 0)
-    meanwhile ();
-  for (std::thread& thread : threads)
-    thread.join ();
-}
-
 /// In every round each thread adds one to all its numbers, while pages are dropped continuously and
 /// other arrays are made and freed.
 TEST_F (ScratchArrays, NothingIsLostWhileThreadsWrite)
 {
   constexpr std::size_t COUNT = 12 * MEGABYTE / sizeof (std::uint32_t);
-  constexpr int THREADS = 3, ROUNDS = 6;
+  constexpr std::uint32_t THREADS = 3, ROUNDS = 6;
+  std::atomic<std::uint32_t> at_work{THREADS};
   std::vector<std::vector<std::uint32_t>> arrays (THREADS, std::vector<std::uint32_t> (COUNT, 0));
-  const auto work = [&arrays] (int t) {
-    for (int round = 0; round < ROUNDS; ++round) {
-      std::vector<std::uint32_t> copy (arrays[t]);
-      for (std::uint32_t& number : copy)
-        ++number;
-      arrays[t].swap (copy);
-    }
-  };
-  runThreads (THREADS, work, dropPages);
+  std::vector<std::thread> threads;
+  for (std::vector<std::uint32_t>& array : arrays)
+    threads.emplace_back ([&array, &at_work] {
+      for (std::uint32_t round = 0; round < ROUNDS; ++round) {
+        std::vector<std::uint32_t> copy (array);
+        for (std::uint32_t& number : copy)
+          ++number;
+        array.swap (copy);
+      }
+      --at_work;
+    });
+  while (at_work > 0)
+    dropPages ();
+  for (std::thread& thread : threads)
+    thread.join ();
   for (const std::vector<std::uint32_t>& array : arrays)
-    expectAll (array, std::uint32_t{ROUNDS});
+    EXPECT_EQ (std::count (array.begin (), array.end (), ROUNDS), std::ptrdiff_t{COUNT});
 }
 
 /// A limit on file sizes stands for a full disk.
@@ -238,34 +186,6 @@ TEST (MemoryLimit, Sizes)
   EXPECT_GT (leastMemory (10'000'000), leastMemory (1'000'000));
   EXPECT_GT (leastMemory (10'000'000), leastMemory (10'000'000, KEPT_PER_POINT / 2.0));
   EXPECT_EQ (leastMemory (0, 1.0), leastMemory (0));
-}
-
-/// Two threads fill and read three times as much as the limit.
-TEST_F (ScratchArrays, ResidentSetStaysNearTheLimit)
-{
-  constexpr std::size_t COUNT = 16 * MEGABYTE / sizeof (std::uint64_t);
-  constexpr int ARRAYS = 50;
-  std::ofstream ("/proc/self/clear_refs") << 5; // resets the peak
-  if (memoryStatus ("VmHWM") > LIMIT / 2)
-    GTEST_SKIP () << "the memory of earlier tests cannot be separated";
-  std::vector<std::vector<std::uint64_t>> arrays (ARRAYS);
-  std::atomic<std::size_t> wrong{0};
-  const auto work = [&] (int first) {
-    for (int a = first; a < ARRAYS; a += 2) {
-      arrays[a].resize (COUNT);
-      std::iota (arrays[a].begin (), arrays[a].end (), a);
-    }
-    std::size_t errors = 0;
-    for (int a = first; a < ARRAYS; a += 2)
-      for (std::size_t i = 0; i < COUNT; ++i)
-        errors += arrays[a][i] == a + i ? 0 : 1;
-    wrong += errors;
-  };
-  runThreads (2, work, [] { std::this_thread::sleep_for (std::chrono::milliseconds (10)); });
-  EXPECT_EQ (wrong, 0U);
-  EXPECT_GT (scratchUse ().bytes, 3 * LIMIT);
-  // Near it; on a busy machine, the thread that drops pages may come late.
-  EXPECT_LT (memoryStatus ("VmHWM"), scratchUse ().bytes / 4 * 3);
 }
 
 } // namespace
