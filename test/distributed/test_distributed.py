@@ -573,7 +573,7 @@ class Errors(Case):
                 (["--work", self.path("w"), "--step", "stars"], "--block"),
                 (["--work", self.path("w"), "--step", "join", "--block", 1], "--block"),
                 (["--work", self.path("w"), "--print-steps", "--step", "join"], "exclude"),
-                (["--work", self.path("w"), "-k", "3", self.cloud, mesh], "-k"),
+                (["--work", self.path("w"), "-k", "3", self.cloud, mesh], "--neighbors"),
                 (["--work", self.path("w"), "-", mesh], "standard input")]:
             self.expect_failure(run([OPTIONS.distributed, *arguments]), USAGE, words)
         self.expect_no_mesh()

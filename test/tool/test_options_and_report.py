@@ -22,7 +22,7 @@ def test_help_and_version(tool):
     assert tool.succeed("--version").out.startswith("pcl_floater_reconstruct ")
 
 
-def test_messages_name_what_was_typed(cloud):
+def test_messages_name_the_option(cloud):
     for options, message in (
             ("--thread 4", "there is no option --thread; did you mean --threads?"),
             ("--thraeds 4", "there is no option --thraeds; did you mean --threads?"),
@@ -34,10 +34,9 @@ def test_messages_name_what_was_typed(cloud):
                                  "did you mean outwards?"),
             ("--facing AUTO", "--facing: 'AUTO' is none of: auto, outwards, up, viewpoint, normals, inwards; did you mean "
                               "auto?"),
-            ("-k 20x", "-k: '20x' is not a whole number"),
-            ("--neighbors 20x", "--neighbors: '20x' is not a whole number"),
-            ("-k 5", "-k must be from 6 to 200"),
-            ("-k", "-k needs a value, N"),
+            ("-k 20x", "--neighbors: '20x' is not a whole number"),
+            ("-k 5", "--neighbors must be from 6 to 200"),
+            ("-k", "--neighbors needs a value, N"),
             ("-k 20 --neighbors 30", "--neighbors is given 2 times; give it once"),
             ("--strict=maybe", "--strict takes no value, but has 'maybe'"),
             ("third.ply", "'third.ply' is one file too many: there are one INPUT and one OUTPUT"),

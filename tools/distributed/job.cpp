@@ -306,7 +306,7 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
     losses = writeTiles (line.output, cloud, triangles, firsts, store, plan);
   else {
     AtomicFile mesh (line.output);
-    losses = writeMesh (mesh, line.output, cloud, triangles, line.output_format);
+    losses = writeMesh (mesh, line.output, cloud, triangles, *line.meshFormat ());
     mesh.close ();
     mesh.publish ();
   }

@@ -169,7 +169,7 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
   if (job.work.empty ())
     throw UsageError ("--work is missing: name a folder for what is known between the steps");
   if (const Problem problem = checkOptions (job.line.options))
-    throw UsageError (rangeMessage (app, problem, arguments));
+    throw UsageError (rangeMessage (app, problem));
   if (job.prints_steps && job.step != nullptr)
     throw UsageError ("--print-steps and --step exclude each other");
   if ((job.step != nullptr && job.step->of_block != nullptr) != job.has_block)

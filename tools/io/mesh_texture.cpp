@@ -78,7 +78,7 @@ spread (ColourImage& image, std::vector<std::uint8_t>& is_painted)
 } // namespace
 
 Cloud
-doubleSeamPoints (const Cloud& cloud, const MeshTexture& texture, Triangles& triangles)
+doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles)
 {
   constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max ();
   const std::size_t points = cloud.size ();
@@ -128,7 +128,7 @@ imageSideFor (std::size_t points, double area_used)
 }
 
 ColourImage
-bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& texture,
+bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordinates& texture,
              std::size_t side)
 {
   constexpr std::uint8_t GREY = 128;

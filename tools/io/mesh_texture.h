@@ -6,6 +6,8 @@
 #include "cloud.h"
 #include "file_bytes.h"
 
+#include <pcl/surface/floater/texture_coordinates.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -60,24 +62,15 @@ pngOf (const ColourImage& image);
 ColourImage
 parsePng (const FileBytes& file);
 
-/// Texture coordinates of the corners of a mesh. A point on a seam has several.
-struct MeshTexture
-{
-  std::vector<Eigen::Vector2f> coordinates; ///< 0 to 1, v upwards
-  std::vector<std::uint32_t> points;        ///< parallel: the point of each, ascending
-  Triangles corners;                        ///< parallel to the triangles
-  std::string materials;                    ///< OBJ: name of the file of materials
-};
-
 /// The cloud with as many rows for each point as it has texture coordinates, and these as the
 /// fields s and t, of 32 bits: the first of a point in its own row, the others after all points. A
 /// point without one has -1. All fields are copied. Triangles are renumbered.
 Cloud
-doubleSeamPoints (const Cloud& cloud, const MeshTexture& texture, Triangles& triangles);
+doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles);
 
 /// Vertices that the doubled cloud has.
 inline std::size_t
-countVertices (const Cloud& cloud, const MeshTexture& texture)
+countVertices (const Cloud& cloud, const TextureCoordinates& texture)
 {
   std::size_t doubled = 0;
   for (std::size_t c = 1; c < texture.points.size (); ++c)
@@ -96,8 +89,15 @@ imageSideFor (std::size_t points, double area_used);
 /// shows at seams, at any level of a mipmap. O(pixels).
 /// \param cloud with colours (see colorFields)
 ColourImage
-bakeColours (const Cloud& cloud, const Triangles& triangles, const MeshTexture& texture,
+bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordinates& texture,
              std::size_t side);
+
+/// The file of materials of an OBJ file.
+inline std::filesystem::path
+materialsBeside (std::filesystem::path obj)
+{
+  return obj.replace_extension (".mtl");
+}
 
 /// A file of materials for OBJ: one, named "surface", white, or with an image.
 /// \param image name of the image as the file of materials is to tell it; may be empty

@@ -60,14 +60,14 @@ writePosition (AtomicFile& file, const Cloud& cloud, std::size_t point, ByteOrde
 
 /// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
 void
-writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
-          const MeshTexture* texture)
+writeObj (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
+          const Triangles& triangles, const TextureCoordinates* texture)
 {
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
   file.print ("# ", COMMENT, "\n", shiftLine ("# shift ", cloud));
   if (texture != nullptr)
-    file.print ("mtllib ", texture->materials, "\n");
+    file.print ("mtllib ", materialsBeside (path).filename ().string (), "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.print ("v");
     printPosition (file, cloud, i);
@@ -303,33 +303,21 @@ countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
       }));
 }
 
-bool
-canHaveTexture (MeshFormat format)
-{
-  return format == MeshFormat::VTK || format == MeshFormat::PLY || format == MeshFormat::OBJ;
-}
-
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, std::optional<MeshFormat> format, const MeshTexture* texture)
+           const Triangles& triangles, MeshFormat format, const TextureCoordinates* texture)
 {
-  if (!format)
-    format = meshFormatOf (path);
-  if (!format)
-    throw WriteError ("cannot write '" + path.string () + "': its extension is unknown; use " +
-                      MESH_EXTENSIONS);
-  const bool is_vtk = *format == MeshFormat::VTK;
-  if (texture != nullptr && (is_vtk || *format == MeshFormat::PLY)) {
+  if (texture != nullptr && format != MeshFormat::OBJ) {
     Triangles renumbered = triangles;
     const Cloud doubled = doubleSeamPoints (cloud, *texture, renumbered);
-    if (!is_vtk)
+    if (format == MeshFormat::PLY)
       return writePly (file, doubled, renumbered);
     writeVtk (file, doubled, renumbered, true);
     return {};
   }
-  const char* const single = *format == MeshFormat::STL   ? "STL"
-                             : *format == MeshFormat::GLB ? "glTF"
-                                                          : nullptr;
+  const char* const single = format == MeshFormat::STL   ? "STL"
+                             : format == MeshFormat::GLB ? "glTF"
+                                                         : nullptr;
   if (single != nullptr)
     if (const std::size_t lost = countMergedInSinglePrecision (cloud, triangles))
       throw WriteError ("cannot write '" + path.string () + "': " + single +
@@ -337,14 +325,14 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
                         std::to_string (triangles.size ()) +
                         " triangles have two equal corners; subtract an origin with --shift, or "
                         "write .vtk, .ply, .obj or .off");
-  switch (*format) {
+  switch (format) {
   case MeshFormat::VTK:
     writeVtk (file, cloud, triangles, false);
     break;
   case MeshFormat::PLY:
     return writePly (file, cloud, triangles);
   case MeshFormat::OBJ:
-    writeObj (file, cloud, triangles, texture);
+    writeObj (file, path, cloud, triangles, texture);
     break;
   case MeshFormat::OFF:
     writeOff (file, cloud, triangles);

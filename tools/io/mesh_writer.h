@@ -12,7 +12,6 @@
 #include <utility>
 
 namespace pcl::floater {
-/// Formats of meshes.
 enum class MeshFormat
 {
   VTK,
@@ -33,7 +32,6 @@ constexpr std::array<std::pair<const char*, std::optional<MeshFormat>>, 7> MESH_
      {"off", MeshFormat::OFF},
      {"glb", MeshFormat::GLB}}};
 
-/// The extensions of meshes, for messages.
 constexpr const char* MESH_EXTENSIONS = ".vtk, .ply, .obj, .stl, .off or .glb";
 
 /// The format that the extension of a file tells, in upper or lower case.
@@ -44,23 +42,19 @@ meshFormatOf (const std::filesystem::path& path);
 /// comment. As far as the format allows, vertex k is point k of the cloud with all its fields, and
 /// every number reads back exactly.
 /// \param path for messages; the bytes are written to `file`
-/// \param format by default that which the extension of the path tells
-/// \param texture if it is not nullptr, the texture coordinates are written as well: as vt of OBJ,
-///   s and t of PLY, TCoords of VTK. In PLY and VTK, points on seams are doubled (doubleSeamPoints)
+/// \param texture not for STL, OFF and GLB; if it is not nullptr, the texture coordinates are written
+///   as well: as vt of OBJ, s and t of PLY, TCoords of VTK. In PLY and VTK, points on seams are
+///   doubled (doubleSeamPoints)
 /// \return losses of the format, one sentence each
 /// \throws WriteError
 std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, std::optional<MeshFormat> format = std::nullopt,
-           const MeshTexture* texture = nullptr);
+           const Triangles& triangles, MeshFormat format,
+           const TextureCoordinates* texture = nullptr);
 
 /// Number of triangles of which 32-bit floats make two corners one: readers may merge those.
 std::size_t
 countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles);
-
-/// Whether meshes of this format can have texture coordinates: VTK, PLY, OBJ.
-bool
-canHaveTexture (MeshFormat format);
 
 /// Binary glTF 2.0: positions in single precision, colours, normals of length 1 (0 0 1 where there
 /// is none), and triangles.

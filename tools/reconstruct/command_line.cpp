@@ -146,7 +146,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   if (needs_disc)
     topology = Topology::DISC;
   if (const Problem problem = checkOptions (command_line.options))
-    throw UsageError (rangeMessage (app, problem, arguments));
+    throw UsageError (rangeMessage (app, problem));
   command_line.texture_coordinates =
       command_line.texture_coordinates || !command_line.texture.empty ();
   checkTextureOptions (command_line);

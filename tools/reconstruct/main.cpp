@@ -60,8 +60,6 @@ public:
   ~Progress () { clear (); }
   Progress (const Progress&) = delete;
   Progress& operator= (const Progress&) = delete;
-  Progress (Progress&&) = delete;
-  Progress& operator= (Progress&&) = delete;
 
   void show (const std::string& step)
   {
@@ -95,7 +93,6 @@ Result
 reconstructInput (Input input, Options options, Progress& progress)
 {
   const auto start = std::chrono::steady_clock::now ();
-  RemainingTime remaining;
   std::string name;
   constexpr std::size_t LARGE = std::size_t{1}
                                 << 19U; // memory is worth more than time from here on
@@ -106,8 +103,7 @@ reconstructInput (Input input, Options options, Progress& progress)
       giveFreedBack ();
   };
   options.progress_callback = [&] (double fraction) {
-    remaining.update (secondsSince (start), fraction);
-    const std::string text = remaining.text ();
+    const std::string text = remainingTime (secondsSince (start), fraction);
     progress.show (name + (text.empty () ? "" : ": " + text));
   };
   return reconstruct (std::move (input), options);
@@ -148,9 +144,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
 {
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
                           const Triangles& triangles, std::optional<MeshFormat> format,
-                          const MeshTexture* texture = nullptr) {
+                          const TextureCoordinates* texture = nullptr) {
     AtomicFile& file = files.emplace_back (path);
-    for (std::string& loss : writeMesh (file, path, vertices, triangles, format, texture))
+    for (std::string& loss : writeMesh (file, path, vertices, triangles, *format, texture))
       result.report.warnings.push_back (std::move (loss));
     file.close ();
   };
@@ -159,7 +155,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     replaceNormals (cloud, result.triangles, line.options.threads);
   if (!line.parameterization.empty ()) {
     const auto [flat, triangles] = flatMesh (cloud, result, line.precision);
-    stage (line.parameterization, flat, triangles, std::nullopt);
+    stage (line.parameterization, flat, triangles, meshFormatOf (line.parameterization));
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
     result.report.warnings.push_back (
@@ -171,16 +167,15 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
                "moved up"));
   run.vertices = cloud.size ();
   if (line.texture_coordinates) {
-    const MeshTexture texture = takeMeshTexture (line, cloud, run.texture);
-    for (std::string& note :
-         stageTexture (line, cloud, result.triangles, texture, run.texture.area_used, files))
+    for (std::uint32_t& point : run.texture.points)
+      point = cloud.pointOf (point);
+    for (std::string& note : stageTexture (line, cloud, result.triangles, run.texture, files))
       result.report.warnings.push_back (std::move (note));
-    stage (line.output, cloud, result.triangles, line.output_format, &texture);
     if (line.meshFormat () != MeshFormat::OBJ)
-      run.vertices = countVertices (cloud, texture);
+      run.vertices = countVertices (cloud, run.texture);
   }
-  else
-    stage (line.output, cloud, result.triangles, line.output_format);
+  stage (line.output, cloud, result.triangles, line.meshFormat (),
+         line.texture_coordinates ? &run.texture : nullptr);
   if (cloud.file.hasChanged ())
     result.report.warnings.emplace_back (
         "the input file changed while it was in use, so that the mesh may mix old and new points; "

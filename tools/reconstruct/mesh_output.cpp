@@ -50,8 +50,7 @@ imageName (const CommandLine& line)
 std::filesystem::path
 materialsOf (const CommandLine& line)
 {
-  std::filesystem::path path = line.output;
-  return line.texture_coordinates && isObj (line) ? path.replace_extension (".mtl")
+  return line.texture_coordinates && isObj (line) ? materialsBeside (line.output)
                                                   : std::filesystem::path ();
 }
 
@@ -59,7 +58,8 @@ void
 checkTextureOptions (const CommandLine& line)
 {
   const std::optional<MeshFormat> format = line.meshFormat ();
-  if (line.texture_coordinates && format && !canHaveTexture (*format))
+  if (line.texture_coordinates &&
+      (format == MeshFormat::STL || format == MeshFormat::OFF || format == MeshFormat::GLB))
     throw UsageError ("STL, OFF and GLB are written without texture coordinates; write .vtk, .ply "
                       "or .obj, or leave --uv and --texture out");
   if (line.texture_coordinates && isObj (line) && isStandardStream (line.output))
@@ -107,22 +107,9 @@ computeTexture (const CommandLine& line, const Cloud& cloud, Result& result)
   return texture;
 }
 
-MeshTexture
-takeMeshTexture (const CommandLine& line, const Cloud& cloud, TextureCoordinates& texture)
-{
-  MeshTexture result;
-  result.coordinates = std::move (texture.coordinates);
-  result.points = std::move (texture.points);
-  result.corners = std::move (texture.corners);
-  for (std::uint32_t& point : result.points)
-    point = cloud.pointOf (point);
-  result.materials = materialsOf (line).filename ().string ();
-  return result;
-}
-
 std::vector<std::string>
 stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
-              const MeshTexture& texture, double area_used, OutputFiles& files)
+              const TextureCoordinates& texture, OutputFiles& files)
 {
   std::vector<std::string> notes;
   if (isObj (line)) {
@@ -135,7 +122,7 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
   if (!line.texture.empty ()) {
     const std::size_t side = line.texture_size > 0
                                  ? static_cast<std::size_t> (line.texture_size)
-                                 : imageSideFor (texture.coordinates.size (), area_used);
+                                 : imageSideFor (texture.coordinates.size (), texture.area_used);
     stageFile (line.texture, pngOf (bakeColours (cloud, triangles, texture, side)), files);
   }
   return notes;

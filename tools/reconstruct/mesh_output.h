@@ -33,16 +33,11 @@ checkTextureColours (const CommandLine& line, const Cloud& cloud);
 TextureCoordinates
 computeTexture (const CommandLine& line, const Cloud& cloud, Result& result);
 
-/// The coordinates for the writers, which are moved from.
-/// \param cloud the cloud, from which points without finite coordinates have been removed
-MeshTexture
-takeMeshTexture (const CommandLine& line, const Cloud& cloud, TextureCoordinates& texture);
-
 /// Writes the file of materials of an OBJ file and the image, under temporary names.
 /// \return what is odd about them, one sentence each
 std::vector<std::string>
 stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
-              const MeshTexture& texture, double area_used, OutputFiles& files);
+              const TextureCoordinates& texture, OutputFiles& files);
 
 /// The file of materials of an OBJ file, beside it.
 std::filesystem::path

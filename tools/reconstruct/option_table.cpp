@@ -14,9 +14,10 @@ void
 addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
            const std::string& kind, const std::string& group)
 {
-  const auto take = [name, parse] (const std::string& word) {
+  const auto take = [long_name = name.substr (name.find (',') + 1),
+                     parse] (const std::string& word) {
     if (const std::string cause = parse (word); !cause.empty ())
-      throw CLI::ValidationError (name, "'" + word + "' " + cause);
+      throw CLI::ValidationError (long_name, "'" + word + "' " + cause);
   };
   app.add_option_function<std::string> (name, take, text)->option_text (kind)->group (group);
 }

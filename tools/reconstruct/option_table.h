@@ -96,8 +96,7 @@ parseArguments (CLI::App& app, const std::vector<std::string>& arguments);
 /// The message for an option that is out of its range.
 /// \param problem of checkOptions ()
 std::string
-rangeMessage (const CLI::App& app, const Problem& problem,
-              const std::vector<std::string>& arguments);
+rangeMessage (const CLI::App& app, const Problem& problem);
 
 struct OptionRow;
 

@@ -194,41 +194,36 @@ printVerdict (std::FILE* to, const Verdict& verdict)
     std::fprintf (to, "           what helps: %s\n", verdict.remedy.c_str ());
 }
 
-/// Prints the decisions that a run is least sure of, each by a function.
-template <typename Decision, typename Print>
-void
-printDecisions (std::FILE* to, const std::vector<Decision>& decisions, const char* what,
-                const char* noun, const Print& print)
-{
-  constexpr std::size_t MOST = 10;
-  const std::size_t count = decisions.size ();
-  if (count == 0)
-    return;
-  std::fprintf (to, "not sure   %s%s%s\n", what, counted (count, noun).c_str (),
-                count > MOST ? ", the least sure of them:" : "");
-  for (std::size_t i = 0; i < std::min (count, MOST); ++i)
-    print (decisions[i]);
-}
-
+/// Prints the decisions that a run is least sure of.
 void
 printUnsure (std::FILE* to, const Report& report)
 {
-  printDecisions (
-      to, report.loop_decisions, "of ", "boundary loop", [to] (const LoopDecision& loop) {
-        std::fprintf (to,
-                      "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary "
-                      "with a probability of %.0f %%\n",
-                      loop.points, loop.width_spacings, loop.at,
-                      loop.stays_open ? "stays open" : "filled", 100.0 * loop.probability);
-      });
-  printDecisions (to, report.facing_decisions, "which side is the front of ", "part",
-                  [to] (const FacingDecision& part) {
-                    std::fprintf (to,
-                                  "           of %zu triangles at point %u: by the rule '%s', with "
-                                  "a certainty of %.0f %%\n",
-                                  part.triangles, part.at, facingRuleName (part.rule),
-                                  100.0 * part.certainty);
-                  });
+  const auto begin = [to] (const char* what, std::size_t count, const char* noun) {
+    constexpr std::size_t MOST = 10;
+    if (count > 0)
+      std::fprintf (to, "not sure   %s%s%s\n", what, counted (count, noun).c_str (),
+                    count > MOST ? ", the least sure of them:" : "");
+    return std::min (count, MOST); // are told
+  };
+  const std::size_t loops = begin ("of ", report.loop_decisions.size (), "boundary loop");
+  for (std::size_t i = 0; i < loops; ++i) {
+    const LoopDecision& loop = report.loop_decisions[i];
+    std::fprintf (
+        to,
+        "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with a "
+        "probability of %.0f %%\n",
+        loop.points, loop.width_spacings, loop.at, loop.stays_open ? "stays open" : "filled",
+        100.0 * loop.probability);
+  }
+  const std::size_t parts =
+      begin ("which side is the front of ", report.facing_decisions.size (), "part");
+  for (std::size_t i = 0; i < parts; ++i) {
+    const FacingDecision& part = report.facing_decisions[i];
+    std::fprintf (
+        to,
+        "           of %zu triangles at point %u: by the rule '%s', with a certainty of %.0f %%\n",
+        part.triangles, part.at, facingRuleName (part.rule), 100.0 * part.certainty);
+  }
 }
 
 /// Prints method, components, genus and boundary loops.

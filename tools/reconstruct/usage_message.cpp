@@ -44,71 +44,6 @@ editDistance (const std::string& a, const std::string& b)
   return table[a.size ()][b.size ()];
 }
 
-/// "-k" and "--neighbors".
-Words
-namesOf (const CLI::Option& option)
-{
-  Words names;
-  for (const std::string& name : option.get_snames ())
-    names.push_back ("-" + name);
-  for (const std::string& name : option.get_lnames ())
-    names.push_back ("--" + name);
-  return names;
-}
-
-/// An option as it was typed: "-k", "-k20", "--neighbors=20".
-struct Typed
-{
-  const CLI::Option* option;
-  std::string name, value; // what is behind =
-};
-
-std::vector<Typed>
-typedOptions (const CLI::App& app, const Words& arguments)
-{
-  std::vector<Typed> typed;
-  for (const std::string& argument : arguments)
-    for (const CLI::Option* const option : app.get_options ())
-      for (const std::string& name : namesOf (*option)) {
-        const std::size_t size = name.size ();
-        const bool begins = argument.compare (0, size, name) == 0;
-        if (begins && (argument.size () == size || argument[size] == '='))
-          typed.push_back ({option, name, argument.substr (std::min (size + 1, argument.size ()))});
-        else if (begins && size == 2) // one letter
-          typed.push_back ({option, name, ""});
-      }
-  return typed;
-}
-
-/// The name by which an option was typed last, and how often it was.
-std::pair<std::string, std::size_t>
-nameAndTimes (const CLI::Option& option, const std::vector<Typed>& typed)
-{
-  std::pair<std::string, std::size_t> result (option.get_name (), 0);
-  for (const Typed& one : typed)
-    if (one.option == &option)
-      result = {one.name, result.second + 1};
-  return result;
-}
-
-/// The option that a message begins with, by any of its names or all of them.
-const CLI::Option*
-optionOf (const CLI::App& app, const std::string& message)
-{
-  const auto begins = [&message] (const std::string& name) {
-    return !name.empty () && message.compare (0, name.size (), name) == 0 &&
-           (message.size () == name.size () || message[name.size ()] == ':' ||
-            message[name.size ()] == ' ');
-  };
-  for (const CLI::Option* const option : app.get_options ()) {
-    const Words names = namesOf (*option);
-    if (begins (option->get_name (false, true)) ||
-        std::any_of (names.begin (), names.end (), begins))
-      return option;
-  }
-  return nullptr;
-}
-
 /// An argument that looks like an option and is none; empty if there is none such.
 std::string
 unknownOption (const CLI::App& app)
@@ -153,7 +88,7 @@ didYouMean (const std::string& word, const std::vector<std::string>& words)
 }
 
 namespace {
-/// The message for a command line that could not be parsed. Options are named as they were typed.
+/// The message for a command line that could not be parsed.
 std::string
 usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
 {
@@ -163,8 +98,8 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
   if (const std::string unknown = unknownOption (app); !unknown.empty ()) {
     Words names;
     for (const CLI::Option* const option : app.get_options ())
-      for (std::string& name : namesOf (*option))
-        names.push_back (std::move (name));
+      if (!option->get_lnames ().empty ())
+        names.push_back (option->get_name ());
     return "there is no option " + unknown + didYouMean (unknown, names);
   }
   if (kind == CLI::ExitCodes::ExtrasError)
@@ -172,25 +107,25 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
            "' is one file too many: there are one INPUT and one OUTPUT";
   if (kind == CLI::ExitCodes::RequiredError)
     return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
-  if (kind == CLI::ExitCodes::ExcludesError)
-    return message;
-  const std::vector<Typed> typed = typedOptions (app, arguments);
   const bool is_mismatch = kind == CLI::ExitCodes::ArgumentMismatch;
   if (is_mismatch ||
       kind == CLI::ExitCodes::ConversionError) // of which the parser converts flags only
-    for (const Typed& one : typed)
-      if (one.option->get_items_expected () == 0 && !one.value.empty ())
-        return one.name + " takes no value, but has '" + one.value + "'";
-  const CLI::Option* const option = optionOf (app, message);
-  if (option == nullptr)
+    for (const std::string& argument : arguments) {
+      const std::size_t equals = std::min (argument.find ('='), argument.size ());
+      const std::string name = argument.substr (0, equals);
+      const CLI::Option* const option = app.get_option_no_throw (name);
+      if (option != nullptr && option->get_items_expected () == 0 && equals < argument.size ())
+        return name + " takes no value, but has '" + argument.substr (equals + 1) + "'";
+    }
+  const CLI::Option* const option =
+      app.get_option_no_throw (message.substr (0, message.find (':')));
+  if (!is_mismatch || option == nullptr)
     return message;
-  const auto [name, times] = nameAndTimes (*option, typed);
-  if (!is_mismatch)
-    return name + message.substr (std::min (message.find (": "), message.size ()));
-  if (times > 1)
-    return name + " is given " + std::to_string (times) + " times; give it once";
+  if (option->count () > 1)
+    return option->get_name () + " is given " + std::to_string (option->count ()) +
+           " times; give it once";
   const std::string& text = option->get_option_text ();
-  return name + " needs a value, " + text.substr (0, text.find (" ("));
+  return option->get_name () + " needs a value, " + text.substr (0, text.find (" ("));
 }
 
 /// Breaks the texts of all options into lines.
@@ -235,13 +170,12 @@ parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
 }
 
 std::string
-rangeMessage (const CLI::App& app, const Problem& problem, const Words& arguments)
+rangeMessage (const CLI::App& app, const Problem& problem)
 {
   const std::string name = toolName (problem.option);
-  if (problem.option.empty () || app.get_option_no_throw (name) == nullptr)
-    return problem.message;
-  return nameAndTimes (*app.get_option (name), typedOptions (app, arguments)).first +
-         problem.message.substr (problem.option.size ());
+  return problem.option.empty () || app.get_option_no_throw (name) == nullptr
+             ? problem.message
+             : name + problem.message.substr (problem.option.size ());
 }
 
 } // namespace pcl::floater
