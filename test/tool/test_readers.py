@@ -424,7 +424,7 @@ def bad_files():
     yield from (("a.stl", content, cause) for content, cause in (
         ("hello", "too short for a binary STL file"),
         ("x" * 200, "promises"),
-        (put(stl_bytes(SQUARE), 80, "I", 2**32 - 1), "promises 4294967295 facets, but the file has only 2"),
+        (put(stl_bytes(SQUARE), 80, "I", 2**32 - 1), "promises 4294967295 facets of at least 50 bytes each, but the file has only 2"),
         (stl_bytes([]), "no points"),
         ("solid a\nendsolid a\n", "no points"),
         ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 high 2\n", "line 4: 'high' is not a number"),
@@ -443,7 +443,7 @@ def bad_files():
         (put(las, 104, "B", 11), "its points are of format 11; 0 to 10"),
         (put(las, 105, "H", 19), "each point 19 bytes, fewer than the 20"),
         (put(las, 107, "I", 0), "no points"),
-        (put(las, 107, "I", 4), "promises 4 points of 20 bytes each, but the file has only 3"),
+        (put(las, 107, "I", 4), "promises 4 points of at least 20 bytes each, but the file has only 3"),
         (put(new_las, 247, "Q", 2**64 - 1), "promises 18446744073709551615 points"),
         (put(las, 131, "d", 0), "the scale or the offset"),
         (put(las, 139, "d", NAN), "the scale or the offset"),

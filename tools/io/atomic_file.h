@@ -53,10 +53,7 @@ public:
   ~AtomicFile ();
   AtomicFile (const AtomicFile&) = delete;
   AtomicFile& operator= (const AtomicFile&) = delete;
-  AtomicFile (AtomicFile&&) = delete;
-  AtomicFile& operator= (AtomicFile&&) = delete;
 
-  /// Appends bytes.
   void write (const void* bytes, std::size_t size);
 
   void write (std::string_view text) { write (text.data (), text.size ()); }
@@ -119,7 +116,6 @@ private:
   std::size_t written_ = 0; // bytes passed to the system
 };
 
-/// Writes a file as AtomicFile does.
 void
 writeFile (const std::filesystem::path& path, std::string_view bytes, bool is_private = false);
 

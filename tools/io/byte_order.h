@@ -3,7 +3,8 @@
 // Numbers in the byte order of a file.
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace pcl::floater {
@@ -21,31 +22,13 @@ template <typename T>
 inline void
 copyNumber (void* to, const void* from, ByteOrder order)
 {
-  if (order == HOST_BYTE_ORDER || sizeof (T) == 1) {
-    std::memcpy (to, from, sizeof (T));
-    return;
-  }
-  if constexpr (sizeof (T) == 2) {
-    std::uint16_t bits;
-    std::memcpy (&bits, from, sizeof bits);
-    bits = __builtin_bswap16 (bits);
-    std::memcpy (to, &bits, sizeof bits);
-  }
-  else if constexpr (sizeof (T) == 4) {
-    std::uint32_t bits;
-    std::memcpy (&bits, from, sizeof bits);
-    bits = __builtin_bswap32 (bits);
-    std::memcpy (to, &bits, sizeof bits);
-  }
-  else if constexpr (sizeof (T) == 8) {
-    std::uint64_t bits;
-    std::memcpy (&bits, from, sizeof bits);
-    bits = __builtin_bswap64 (bits);
-    std::memcpy (to, &bits, sizeof bits);
-  }
+  std::array<char, sizeof (T)> bytes{};
+  std::memcpy (bytes.data (), from, sizeof (T));
+  if (order != HOST_BYTE_ORDER)
+    std::reverse (bytes.begin (), bytes.end ());
+  std::memcpy (to, bytes.data (), sizeof (T));
 }
 
-/// Reads a number in the byte order of a file.
 template <typename T>
 inline T
 readNumber (const void* from, ByteOrder order)

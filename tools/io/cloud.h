@@ -30,7 +30,6 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Type of the values of a field.
 enum class ScalarType
 {
   INT8,
@@ -75,7 +74,6 @@ visitType (ScalarType type, Visitor&& visitor)
   return visitor (double{});
 }
 
-/// Size of one value in bytes.
 inline std::size_t
 sizeOf (ScalarType type)
 {
@@ -150,7 +148,6 @@ struct Field
   double scaled (std::size_t point) const { return asDouble (point) * scale + offset; }
 };
 
-/// Pointers to all of them.
 inline std::vector<Field*>
 pointersTo (std::vector<Field>& fields)
 {
@@ -179,15 +176,22 @@ addColumns (std::initializer_list<const char*> names, ScalarType type, Values va
   }
 }
 
+inline std::size_t
+rowBytes (const std::vector<Field*>& fields)
+{
+  std::size_t bytes = 0;
+  for (const Field* field : fields)
+    bytes += field->pointBytes ();
+  return bytes;
+}
+
 /// Makes the fields views of rows: all fields of the first point from `first` on, then all fields
 /// of the next.
 inline void
 viewRows (const std::vector<Field*>& fields, const std::shared_ptr<const char>& first,
           ByteOrder order)
 {
-  std::size_t stride = 0;
-  for (const Field* field : fields)
-    stride += field->pointBytes ();
+  const std::size_t stride = rowBytes (fields);
   std::size_t offset = 0;
   for (Field* field : fields) {
     field->first = {first, first.get () + offset};
@@ -202,10 +206,8 @@ viewRows (const std::vector<Field*>& fields, const std::shared_ptr<const char>& 
 inline std::shared_ptr<char>
 allocateRows (const std::vector<Field*>& fields, std::size_t points)
 {
-  std::size_t bytes = 0;
-  for (const Field* field : fields)
-    bytes += points * field->pointBytes ();
-  const std::shared_ptr<char> rows (new char[bytes], std::default_delete<char[]> ());
+  const std::shared_ptr<char> rows (new char[points * rowBytes (fields)],
+                                    std::default_delete<char[]> ());
   viewRows (fields, rows, HOST_BYTE_ORDER);
   return rows;
 }
@@ -232,10 +234,8 @@ struct Cloud
   std::vector<std::string> notes;    ///< what it holds and what was left out of it
   FileBytes file;                    ///< the file, if the fields refer to it
 
-  /// Number of points that are left.
   std::size_t size () const { return kept.empty () ? rows : kept.size (); }
 
-  /// The row of a point.
   std::size_t row (std::size_t point) const { return kept.empty () ? point : kept[point]; }
 
   /// The point of a row that is left. O(log rows).
@@ -255,10 +255,8 @@ struct Cloud
            shift;
   }
 
-  /// Whether a row was left out on purpose.
   bool isLeftOut (std::size_t row) const { return !left_out.empty () && left_out[row]; }
 
-  /// The positions of all points.
   std::vector<Eigen::Vector3d> positions () const;
 
   /// The field of this name, or nullptr.
@@ -271,7 +269,6 @@ struct Cloud
   }
 };
 
-/// Pointers to the coordinates and all other fields.
 inline std::vector<Field*>
 allFields (Cloud& cloud)
 {
@@ -281,7 +278,6 @@ allFields (Cloud& cloud)
   return fields;
 }
 
-/// Triangles as indices into a cloud.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// Three fields of one value each: the channels of a colour, or the coordinates of a normal.

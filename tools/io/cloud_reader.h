@@ -25,7 +25,6 @@ public:
   {
   }
 
-  /// Begins a polygon.
   void begin () { corners_ = 0; }
 
   /// \throws ReadError if there is no such point
@@ -49,7 +48,26 @@ private:
   std::uint32_t first_ = 0, last_ = 0;
 };
 
-/// The extensions of clouds, for messages.
+/// Fails because a file has less than its header tells.
+[[noreturn]] inline void
+failPromise (const std::string& what, std::uint64_t promised, std::size_t found)
+{
+  throw ReadError ("the header promises " + std::to_string (promised) + " " + what +
+                   ", but the file has only " + std::to_string (found) +
+                   "; it is truncated or its header is wrong");
+}
+
+/// Requires that the bytes that are left can hold what the header promises. To be called before
+/// anything is allocated, because a header may claim any number.
+/// \param each least bytes of each
+inline void
+requireRoom (const std::string& what, std::uint64_t promised, std::size_t each, std::size_t bytes)
+{
+  const std::size_t most = each > 0 ? bytes / each : 0;
+  if (promised > most)
+    failPromise (what + " of at least " + counted (each, "byte") + " each", promised, most);
+}
+
 constexpr const char* CLOUD_EXTENSIONS =
     ".pcd, .ply, .obj, .stl, .vtk, .vtp, .las, .bin, .ptx, .pts, .xyz, .txt, .csv, .asc or .pwn";
 
@@ -63,7 +81,6 @@ constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read
 void
 requireReadable (const std::filesystem::path& path);
 
-/// How to read a cloud.
 struct ReadOptions
 {
   /// read the coordinates of text files as doubles, also where the file says float;
@@ -74,53 +91,47 @@ struct ReadOptions
   Triangles* faces = nullptr;           ///< get those of PLY and VTK, polygons as several
 };
 
+/// Makes a cloud of the bytes of a file, which are not empty. It has points of all classes.
+using CloudParser = Cloud (const FileBytes& file, const ReadOptions& options);
+
 /// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
 /// skipped. The origin of the viewpoint is read; coordinates are not transformed. A header without
 /// SIZE, TYPE or COUNT is one of floats.
-Cloud
-parsePcd (const FileBytes& file, const ReadOptions& options);
+CloudParser parsePcd;
 
 /// PLY, ascii and binary in both byte orders: the element "vertex", without its list properties, and
 /// "face" if faces are asked for. Without it, elements after the vertices are ignored.
-Cloud
-parsePly (const FileBytes& file, const ReadOptions& options);
+CloudParser parsePly;
 
 /// VTK's legacy format: points with colours, normals, and texture coordinates as the fields s and t;
 /// of POLYDATA, the polygons (both layouts). All other data are left out.
-Cloud
-parseVtk (const FileBytes& file, const ReadOptions& options);
+CloudParser parseVtk;
 
 /// VTK's format in XML, of one piece: points and their arrays, as text, in base64 or raw, also compressed
 /// by zlib.
-Cloud
-parseVtp (const FileBytes& file, const ReadOptions& options);
+CloudParser parseVtp;
 
 /// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
 /// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other
 /// lines are ignored. A line that ends with \ goes on in the next.
-Cloud
-parseObj (const FileBytes& file, const ReadOptions& options);
+CloudParser parseObj;
 
 /// STL, binary and text: the corners of the facets, equal ones once.
-Cloud
-parseStl (const FileBytes& file, const ReadOptions& options);
+CloudParser parseStl;
 
 /// Floats, as KITTI and nuScenes store what a spinning lidar has seen: x, y, z and intensity of each
 /// point, and the ring, a whole number, where there are five.
-Cloud
-parseBin (const FileBytes& file, const ReadOptions& options);
+CloudParser parseBin;
 
 /// PTX: all scans of the file, in their common frame, with intensity and colour. Pixels without a
 /// return are left out. A single scan is organized and has the place of its sensor; of several, each
 /// point has the number of its scan.
-Cloud
-parsePtx (const FileBytes& file, const ReadOptions& options);
+CloudParser parsePtx;
 
 /// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity, colour, returns, class,
 /// the flags synthetic and withheld, source and time. A colour is the higher 8 of its 16 bits, or
 /// the lower ones if none is above 255.
-Cloud
-parseLas (const FileBytes& file, const ReadOptions& options);
+CloudParser parseLas;
 
 /// Text with a point in each line, as many columns as in the first. They are separated by blanks,
 /// tabs, commas or semicolons, and named by a line before them, which may be a comment; columns
@@ -128,18 +139,15 @@ parseLas (const FileBytes& file, const ReadOptions& options);
 /// no points are skipped, with a warning; a single whole number is how many points there are. Lines
 /// that begin with #, // or % are comments.
 /// \throws ReadError also if the first column counts the points, or a header names no coordinates
-Cloud
-parseXyz (const FileBytes& file, const ReadOptions& options);
+CloudParser parseXyz;
 
 /// The same, as scanners write it: of columns without names, where a colour could begin in the fourth or
 /// the fifth, the intensity comes before it.
-Cloud
-parsePts (const FileBytes& file, const ReadOptions& options);
+CloudParser parsePts;
 
-/// A format of clouds: what makes a cloud of the bytes of a file, which are not empty. Of all classes.
-using CloudFormat = Cloud (*) (const FileBytes&, const ReadOptions&);
+using CloudFormat = CloudParser*;
 
-/// Their names, which are extensions as well; others are those of text.
+/// The names of formats, which are extensions as well; others are those of text.
 constexpr std::array<std::pair<const char*, CloudFormat>, 12> CLOUD_FORMATS{{{"auto", nullptr},
                                                                              {"pcd", parsePcd},
                                                                              {"ply", parsePly},

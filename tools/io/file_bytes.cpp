@@ -29,12 +29,6 @@ constexpr std::size_t MOST_RANGES = 8;
 std::array<MappedRange, MOST_RANGES> mapped_ranges;
 std::mutex ranges_mutex; // held while a range is added or removed
 
-bool
-isSameTime (const timespec& a, const timespec& b)
-{
-  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
-}
-
 [[noreturn]] void
 failOnErrno ()
 {
@@ -65,8 +59,6 @@ struct FileBytes::Holder
   }
   Holder (const Holder&) = delete;
   Holder& operator= (const Holder&) = delete;
-  Holder (Holder&&) = delete;
-  Holder& operator= (Holder&&) = delete;
 
   bool map ()
   {
@@ -171,7 +163,8 @@ FileBytes::hasChanged () const
     return false;
   struct stat now = {};
   return ::fstat (holder_->descriptor, &now) != 0 || now.st_size != holder_->status.st_size ||
-         !isSameTime (now.st_mtim, holder_->status.st_mtim);
+         now.st_mtim.tv_sec != holder_->status.st_mtim.tv_sec ||
+         now.st_mtim.tv_nsec != holder_->status.st_mtim.tv_nsec;
 }
 
 bool

@@ -18,7 +18,6 @@ namespace pcl::floater {
 class FileBytes
 {
 public:
-  /// No bytes.
   FileBytes () = default;
 
   /// \throws ReadError if the file does not exist, is a folder, or cannot be read

@@ -9,14 +9,19 @@
 #include <string_view>
 
 namespace pcl::floater {
+/// A letter of ASCII in lower case.
+inline char
+lowerCase (char c)
+{
+  return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
+}
+
 /// Extension of a file in lower case, with its dot.
 inline std::string
 lowerExtension (const std::filesystem::path& path)
 {
   std::string extension = path.extension ().string ();
-  std::transform (extension.begin (), extension.end (), extension.begin (), [] (char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
-  });
+  std::transform (extension.begin (), extension.end (), extension.begin (), lowerCase);
   return extension;
 }
 
@@ -94,14 +99,6 @@ inline std::string
 counted (std::size_t count, const std::string& noun)
 {
   return std::to_string (count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-/// Why a file cannot be read that has less than its header tells.
-inline std::string
-brokenPromise (const std::string& promised, std::size_t found)
-{
-  return "the header promises " + promised + ", but the file has only " + std::to_string (found) +
-         "; it is truncated or its header is wrong";
 }
 
 } // namespace pcl::floater

@@ -114,18 +114,6 @@ readHeader (std::string_view bytes)
   return header;
 }
 
-/// A field of which the points have the value at this byte.
-Field
-fieldAt (const FileBytes& file, const LasHeader& header, const std::string& name, ScalarType type,
-         std::size_t at)
-{
-  Field field{name, type};
-  field.first = file.at (header.points_at + at);
-  field.stride = header.record_size;
-  field.order = ByteOrder::LITTLE;
-  return field;
-}
-
 /// Whether any of the three channels of any point is not black.
 bool
 hasColors (std::string_view bytes, const LasHeader& header)
@@ -183,33 +171,35 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   const LasHeader header = readHeader (bytes);
   if (header.count == 0)
     throw ReadError ("it has no points");
-  const std::size_t most = (bytes.size () - header.points_at) / header.record_size;
-  if (header.count > most)
-    throw ReadError (brokenPromise (std::to_string (header.count) + " points of " +
-                                        counted (header.record_size, "byte") + " each",
-                                    most));
+  requireRoom ("points", header.count, header.record_size, bytes.size () - header.points_at);
   std::vector<Field> fields;
+  const auto add = [&] (const char* name, ScalarType type, std::size_t at) -> Field& {
+    Field& field = fields.emplace_back (Field{name, type});
+    field.first = file.at (header.points_at + at);
+    field.stride = header.record_size;
+    field.order = ByteOrder::LITTLE;
+    return field;
+  };
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Field field = fieldAt (file, header, std::string (1, "xyz"[axis]), ScalarType::INT32,
-                           axis * sizeof (std::int32_t));
+    constexpr std::array<const char*, 3> AXES{"x", "y", "z"};
+    Field& field = add (AXES[axis], ScalarType::INT32, axis * sizeof (std::int32_t));
     field.scale = header.scales[axis];
     field.offset = header.offsets[axis];
-    fields.push_back (std::move (field));
   }
-  fields.push_back (fieldAt (file, header, "intensity", ScalarType::UINT16, INTENSITY_AT));
+  add ("intensity", ScalarType::UINT16, INTENSITY_AT);
   addBits (file, header, fields);
-  fields.push_back (
-      fieldAt (file, header, "point_source_id", ScalarType::UINT16, header.is_long ? 20 : 18));
-  if (header.format.time_at > 0)
-    fields.push_back (
-        fieldAt (file, header, "gps_time", ScalarType::FLOAT64, header.format.time_at));
+  add ("point_source_id", ScalarType::UINT16, header.is_long ? 20 : 18);
+  const std::size_t time_at = header.format.time_at, color_at = header.format.color_at;
+  if (time_at > 0)
+    add ("gps_time", ScalarType::FLOAT64, time_at);
   std::vector<std::string> warnings;
-  if (header.format.color_at > 0 && !hasColors (bytes, header))
+  if (color_at > 0 && !hasColors (bytes, header))
     warnings.emplace_back ("all colours of the input file are black: they were left out");
-  else if (header.format.color_at > 0) // of 16 bits by the specification, often 8 in fact
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      fields.push_back (fieldAt (file, header, std::string (1, "rgb"[channel]), ScalarType::UINT16,
-                                 header.format.color_at + channel * sizeof (std::uint16_t)));
+  else if (color_at > 0) { // of 16 bits by the specification, often 8 in fact
+    add ("r", ScalarType::UINT16, color_at);
+    add ("g", ScalarType::UINT16, color_at + 2);
+    add ("b", ScalarType::UINT16, color_at + 4);
+  }
   Cloud cloud =
       makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
   // A centimetre of height is 1e-7 degrees.

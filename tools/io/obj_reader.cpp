@@ -10,40 +10,26 @@
 
 namespace pcl::floater {
 namespace {
-constexpr double OBJ_WHITE = 255.0;
-
-double
-colorChannel (const TextScanner& scanner, double channel)
+/// The next word of a line, which a backslash at its end continues; empty behind the last one.
+std::string_view
+nextWord (TextScanner& scanner)
 {
-  if (!(channel >= 0.0 && channel <= OBJ_WHITE))
-    scanner.fail ("a colour must be from 0 to 1, or to 255");
-  return channel;
+  for (;;) {
+    std::string_view word = scanner.word ();
+    if (word.empty () || word.back () != '\\' || word.front () == '#' || scanner.hasWord ())
+      return word;
+    word.remove_suffix (1);
+    if (!scanner.nextLine () || !word.empty ())
+      return word;
+  }
 }
 
-/// The text with lines joined that go on in the next, as a backslash at their end tells. Empty
-/// lines follow them, so that those after them keep their numbers.
-std::string
-joinLines (std::string_view text)
+/// The same; empty also at a comment.
+std::string_view
+nextValue (TextScanner& scanner)
 {
-  std::string joined;
-  joined.reserve (text.size ());
-  std::size_t owed = 0; // empty lines
-  for (std::size_t first = 0; first < text.size ();) {
-    const std::size_t newline = std::min (text.find ('\n', first), text.size ());
-    std::string_view line = text.substr (first, newline - first);
-    first = newline + 1;
-    if (!line.empty () && line.back () == '\r')
-      line.remove_suffix (1);
-    if (!line.empty () && line.back () == '\\' && line.front () != '#') {
-      line.remove_suffix (1);
-      joined.append (line).append (" ");
-      ++owed;
-      continue;
-    }
-    joined.append (line).append (owed + 1, '\n');
-    owed = 0;
-  }
-  return joined;
+  const std::string_view word = nextWord (scanner);
+  return !word.empty () && word.front () == '#' ? std::string_view () : word;
 }
 
 /// Reads the numbers in the rest of the line.
@@ -52,8 +38,7 @@ std::size_t
 readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
 {
   std::size_t count = 0;
-  for (std::string_view word = scanner.word (); !word.empty () && word.front () != '#';
-       word = scanner.word ()) {
+  for (auto word = nextValue (scanner); !word.empty (); word = nextValue (scanner)) {
     if (count == numbers.size ())
       scanner.fail ("it has more than " + std::to_string (numbers.size ()) + " numbers");
     if (!parseNumber (word, numbers[count++]))
@@ -90,8 +75,7 @@ void
 readFace (TextScanner& scanner, std::size_t points, std::size_t normals, ObjFaces& faces)
 {
   ++faces.count;
-  for (std::string_view corner = scanner.word (); !corner.empty () && corner.front () != '#';
-       corner = scanner.word ()) {
+  for (auto corner = nextValue (scanner); !corner.empty (); corner = nextValue (scanner)) {
     const std::optional<std::size_t> point = takeIndex (scanner, corner, points);
     takeIndex (scanner, corner, 0); // of a texture
     const std::optional<std::size_t> normal = takeIndex (scanner, corner, normals);
@@ -149,20 +133,20 @@ parseObj (const FileBytes& file, const ReadOptions& /*options*/)
   ObjFaces faces;
   std::vector<float> colors;
   std::array<double, WITH_COLOR> numbers{};
-  const bool goes_on = file.view ().find ("\\\n") != std::string_view::npos ||
-                       file.view ().find ("\\\r\n") != std::string_view::npos;
-  const std::string joined = goes_on ? joinLines (file.view ()) : "";
-  TextScanner scanner (goes_on ? std::string_view (joined) : file.view ());
+  TextScanner scanner (file.view ());
   while (scanner.nextLine ()) {
-    const std::string_view key = scanner.word ();
+    const std::string_view key = nextWord (scanner);
     if (key == "v") {
       const std::size_t count = readNumbers (scanner, numbers);
       if (count != 3 && count != 4 && count != WITH_COLOR)
         scanner.fail ("a point has 3, 4 or 6 numbers, not " + std::to_string (count));
       coordinates.insert (coordinates.end (), numbers.begin (), numbers.begin () + 3);
       if (count == WITH_COLOR)
-        for (std::size_t i = 3; i < WITH_COLOR; ++i)
-          colors.push_back (static_cast<float> (colorChannel (scanner, numbers[i])));
+        for (std::size_t i = 3; i < WITH_COLOR; ++i) {
+          if (!(numbers[i] >= 0.0 && numbers[i] <= 255.0))
+            scanner.fail ("a colour must be from 0 to 1, or to 255");
+          colors.push_back (static_cast<float> (numbers[i]));
+        }
     }
     else if (key == "vn") {
       if (readNumbers (scanner, numbers) != 3)
@@ -171,6 +155,8 @@ parseObj (const FileBytes& file, const ReadOptions& /*options*/)
     }
     else if (key == "f")
       readFace (scanner, coordinates.size () / 3, normals.size () / 3, faces);
+    else if (!key.empty () && key.front () != '#') // a line that is passed over may go on, too
+      while (!nextValue (scanner).empty ()) {}
   }
   if (coordinates.empty ())
     throw ReadError ("it has no points");

@@ -9,6 +9,7 @@
 #include <lzf.h>
 #endif
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -20,10 +21,8 @@ const std::string PADDING = "_";
 struct PcdHeader
 {
   // The lines, and what they are together.
-  std::vector<std::string> names;
-  std::vector<std::size_t> sizes;
-  std::vector<std::string> types;
-  std::vector<std::size_t> counts;
+  std::vector<std::string> names, types;
+  std::vector<std::uint32_t> sizes, counts;
   std::optional<std::size_t> width, height, points_told;
   std::array<double, 3> viewpoint{};
   std::string_view data;     ///< ascii, binary or binary_compressed
@@ -32,36 +31,15 @@ struct PcdHeader
   std::vector<std::string> warnings;
 };
 
-template <typename Add>
-void
-eachWord (TextScanner& scanner, Add&& add)
-{
-  for (std::string_view word = scanner.word (); !word.empty (); word = scanner.word ())
-    add (word);
-}
-
-void
-readSizes (TextScanner& scanner, std::vector<std::size_t>& numbers, const char* what)
-{
-  eachWord (scanner, [&] (std::string_view word) {
-    std::uint32_t number = 0;
-    if (!parseNumber (word, number))
-      scanner.fail (std::string (what) + " must be whole numbers, not '" + std::string (word) +
-                    "'");
-    numbers.push_back (number);
-  });
-}
-
 void
 makeFields (const TextScanner& scanner, PcdHeader& lines)
 {
-  constexpr std::size_t FLOAT_BYTES = 4;
   const std::size_t n = lines.names.size ();
   if (n == 0)
     scanner.fail ("the header has no FIELDS");
   std::string missing;
   if (lines.sizes.empty ()) {
-    lines.sizes.assign (n, FLOAT_BYTES);
+    lines.sizes.assign (n, sizeof (float));
     missing = "SIZE";
   }
   if (lines.types.empty ()) {
@@ -118,6 +96,14 @@ PcdHeader
 readPcdHeader (TextScanner& scanner)
 {
   PcdHeader lines;
+  const auto readWords = [&scanner] (std::vector<std::string>& words) {
+    while (scanner.hasWord ())
+      words.emplace_back (scanner.word ());
+  };
+  const auto readNumbers = [&scanner] (std::vector<std::uint32_t>& numbers) {
+    while (scanner.hasWord ())
+      numbers.push_back (scanner.number<std::uint32_t> ());
+  };
   while (scanner.nextFilledLine ()) {
     const std::string_view key = scanner.word ();
     if (key.front () == '#' || key == "VERSION")
@@ -126,13 +112,13 @@ readPcdHeader (TextScanner& scanner)
       for (double& coordinate : lines.viewpoint)
         coordinate = scanner.number<double> ();
     else if (key == "FIELDS" || key == "COLUMNS")
-      eachWord (scanner, [&] (std::string_view word) { lines.names.emplace_back (word); });
+      readWords (lines.names);
     else if (key == "TYPE")
-      eachWord (scanner, [&] (std::string_view word) { lines.types.emplace_back (word); });
+      readWords (lines.types);
     else if (key == "SIZE")
-      readSizes (scanner, lines.sizes, "SIZE");
+      readNumbers (lines.sizes);
     else if (key == "COUNT")
-      readSizes (scanner, lines.counts, "COUNT");
+      readNumbers (lines.counts);
     else if (key == "WIDTH")
       lines.width = scanner.number<std::size_t> ();
     else if (key == "HEIGHT")
@@ -151,33 +137,13 @@ readPcdHeader (TextScanner& scanner)
   throw ReadError ("the PCD header has no DATA line; the file may be truncated");
 }
 
-std::size_t
-pointBytes (const std::vector<Field>& fields, bool with_padding)
-{
-  std::size_t bytes = 0;
-  for (const Field& field : fields)
-    bytes += with_padding || field.name != PADDING ? field.pointBytes () : 0;
-  return bytes;
-}
-
-/// Checks the number of points before anything is allocated, because a header may claim any.
-void
-requireSize (std::size_t points, std::size_t bytes_of_point, std::size_t bytes)
-{
-  if (bytes_of_point == 0 || points > bytes / bytes_of_point)
-    throw ReadError ("the header promises " + counted (points, "point") + " of at least " +
-                     counted (bytes_of_point, "byte") + " each, but there are only " +
-                     counted (bytes, "byte") +
-                     " of data; the file is truncated or its header is wrong");
-}
-
 std::vector<Field*>
 fieldsToKeep (PcdHeader& header)
 {
-  std::vector<Field*> fields;
-  for (Field& field : header.fields)
-    if (field.name != PADDING)
-      fields.push_back (&field);
+  std::vector<Field*> fields = pointersTo (header.fields);
+  fields.erase (std::remove_if (fields.begin (), fields.end (),
+                                [] (const Field* field) { return field->name == PADDING; }),
+                fields.end ());
   return fields;
 }
 
@@ -189,18 +155,22 @@ readAscii (TextScanner& scanner, PcdHeader& header)
     words += field.count;
   // A first point may follow `DATA ascii` on its line, and the last end without a newline.
   bool has_line = scanner.hasWord ();
-  requireSize (header.points, 2 * words, scanner.restWithLine ().size () + 1);
-  const std::shared_ptr<char> rows = allocateRows (fieldsToKeep (header), header.points);
-  char* to = rows.get ();
+  requireRoom ("points", header.points, 2 * words, scanner.restWithLine ().size () + 1);
+  char* to = allocateRows (fieldsToKeep (header), header.points).get (); // which the fields keep
   for (std::size_t i = 0; i < header.points; ++i) {
     if (!std::exchange (has_line, false) && !scanner.nextFilledLine ())
-      throw ReadError (brokenPromise (counted (header.points, "point"), i));
+      failPromise ("points", header.points, i);
     for (const Field& field : header.fields) {
-      if (field.name != PADDING)
-        to = scanField (scanner, field, to);
-      else
+      if (field.name == PADDING)
         for (std::size_t c = 0; c < field.count; ++c)
           scanner.word ();
+      else
+        visitType (field.type, [&] (auto number) {
+          for (std::size_t c = 0; c < field.count; ++c, to += sizeof number) {
+            number = scanner.number<decltype (number)> ();
+            std::memcpy (to, &number, sizeof number);
+          }
+        });
     }
     if (!scanner.word ().empty ())
       scanner.fail ("it has more values than there are fields (" + std::to_string (words) + ")");
@@ -211,29 +181,12 @@ readAscii (TextScanner& scanner, PcdHeader& header)
 bool
 readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
 {
-  const std::size_t stride = pointBytes (header.fields, true);
-  requireSize (header.points, stride, file.view ().size () - begin);
+  const std::size_t stride = rowBytes (pointersTo (header.fields));
+  requireRoom ("points", header.points, stride, file.view ().size () - begin);
   viewRows (pointersTo (header.fields), file.at (begin), ByteOrder::LITTLE);
   // PCL's writer fills the last block of the disk with zeros.
   const std::string_view rest = file.view ().substr (begin + header.points * stride);
   return rest.find_first_not_of ('\0') != std::string_view::npos;
-}
-
-/// \throws ReadError if the bytes are no LZF data of the expected size, or nothing here can tell
-void
-decompress (std::string_view bytes, char* values, std::size_t expected)
-{
-#ifdef PCL_FLOATER_HAS_LZF
-  if (lzf_decompress (bytes.data (), static_cast<unsigned int> (bytes.size ()), values,
-                      static_cast<unsigned int> (expected)) != expected)
-    throw ReadError ("the compressed data are damaged");
-#else
-  static_cast<void> (bytes);
-  static_cast<void> (values);
-  static_cast<void> (expected);
-  throw ReadError ("its data are compressed, and this program was built without liblzf, which "
-                   "decompresses them; save it as ascii or binary");
-#endif
 }
 
 /// Two 32-bit numbers, the compressed and the uncompressed size, then all values field by field,
@@ -253,14 +206,21 @@ readCompressed (std::string_view bytes, PcdHeader& header)
     throw ReadError ("there should be " + counted (compressed, "byte") +
                      " of compressed data, but the file has only " +
                      std::to_string (bytes.size ()) + "; it is truncated");
-  const std::size_t point_bytes = pointBytes (header.fields, false);
-  requireSize (header.points, point_bytes, expected);
+  const std::vector<Field*> fields = fieldsToKeep (header);
+  const std::size_t point_bytes = rowBytes (fields);
+  requireRoom ("points", header.points, point_bytes, expected);
   if (header.points * point_bytes != expected || expected / MOST_PER_BYTE > compressed)
     throw ReadError ("the size of the compressed data does not fit the number of points");
   const std::shared_ptr<char> values (new char[expected], std::default_delete<char[]> ());
-  decompress (bytes.substr (0, compressed), values.get (), expected);
+#ifdef PCL_FLOATER_HAS_LZF
+  if (lzf_decompress (bytes.data (), compressed, values.get (), expected) != expected)
+    throw ReadError ("the compressed data are damaged");
+#else
+  throw ReadError ("its data are compressed, and this program was built without liblzf, which "
+                   "decompresses them; save it as ascii or binary");
+#endif
   std::size_t offset = 0;
-  for (Field* field : fieldsToKeep (header)) {
+  for (Field* field : fields) {
     field->first = {values, values.get () + offset};
     field->stride = field->pointBytes ();
     field->order = ByteOrder::LITTLE;
@@ -289,10 +249,10 @@ parsePcd (const FileBytes& file, const ReadOptions& options)
   else
     scanner.fail ("DATA is '" + std::string (header.data) +
                   "'; it must be ascii, binary or binary_compressed");
-  header.fields.erase (std::remove_if (header.fields.begin (), header.fields.end (),
-                                       [] (const Field& field) { return field.name == PADDING; }),
-                       header.fields.end ());
-  Cloud cloud = makeCloud (std::move (header.fields), header.points, std::move (header.warnings));
+  std::vector<Field> kept;
+  for (Field* field : fieldsToKeep (header))
+    kept.push_back (std::move (*field));
+  Cloud cloud = makeCloud (std::move (kept), header.points, std::move (header.warnings));
   cloud.sensor_origin = header.viewpoint;
   cloud.single_precision |= is_widened;
   if (header.data == "binary")

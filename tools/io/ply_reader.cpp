@@ -21,6 +21,8 @@ struct Element
   std::string name;
   std::size_t count = 0;
   std::vector<Property> properties;
+
+  std::string what () const { return "rows of the element '" + name + "'"; }
 };
 
 struct PlyHeader
@@ -28,7 +30,6 @@ struct PlyHeader
   std::optional<ByteOrder> byte_order; ///< none if ascii
   std::vector<Element> elements;
 
-  /// The first element of this name, or nullptr.
   Element* find (std::string_view name)
   {
     for (Element& element : elements)
@@ -113,13 +114,6 @@ readPlyHeader (TextScanner& scanner)
   throw ReadError ("the PLY header has no end; the file may be truncated");
 }
 
-[[noreturn]] void
-failTruncated (const Element& element, std::size_t found)
-{
-  throw ReadError (brokenPromise (
-      "the element '" + element.name + "' " + counted (element.count, "time"), found));
-}
-
 std::vector<Field*>
 fieldsOf (Element& element)
 {
@@ -130,102 +124,99 @@ fieldsOf (Element& element)
   return fields;
 }
 
-/// Reads a row of an element: stores its values, without lists, and goes on behind them.
-/// \param to nullptr: they are only passed over
+/// Reads an element.
+/// \param keep whether to store its values, without lists, in rows of its fields
 /// \param fans get the corners of faces; may be nullptr
+/// \param nextRow nextRow (row) goes to the next row
 /// \param next next (T{}) is the next value, of the type T
-template <typename Next>
+/// \param endRow endRow () is called behind the last value of a row
+template <typename NextRow, typename Next, typename EndRow>
 void
-readRow (const Element& element, char*& to, PolygonFans* fans, const Next& next)
+readRows (Element& element, bool keep, PolygonFans* fans, const NextRow& nextRow, const Next& next,
+          const EndRow& endRow)
 {
-  for (const Property& property : element.properties) {
-    const bool are_corners =
-        property.is_list && fans != nullptr &&
-        (property.field.name == "vertex_indices" || property.field.name == "vertex_index");
-    std::size_t count = 1;
-    if (property.is_list)
-      count = visitType (property.length_type,
-                         [&] (auto tag) { return static_cast<std::size_t> (next (tag)); });
-    if (are_corners)
-      fans->begin ();
-    visitType (property.field.type, [&] (auto tag) {
-      for (; count > 0; --count) {
-        const auto value = next (tag);
-        if (are_corners)
-          fans->add (static_cast<double> (value));
-        else if (to != nullptr && !property.is_list) {
-          std::memcpy (to, &value, sizeof value);
-          to += sizeof value;
+  char* to = keep ? allocateRows (fieldsOf (element), element.count).get () : nullptr;
+  for (std::size_t row = 0; row < element.count; ++row) {
+    nextRow (row);
+    for (const Property& property : element.properties) {
+      const std::string& name = property.field.name;
+      const bool are_corners = property.is_list && fans != nullptr &&
+                               (name == "vertex_indices" || name == "vertex_index");
+      std::size_t count = 1;
+      if (property.is_list)
+        count = visitType (property.length_type,
+                           [&] (auto tag) { return static_cast<std::size_t> (next (tag)); });
+      if (are_corners)
+        fans->begin ();
+      visitType (property.field.type, [&] (auto tag) {
+        for (; count > 0; --count) {
+          const auto value = next (tag);
+          if (are_corners)
+            fans->add (static_cast<double> (value));
+          else if (to != nullptr && !property.is_list) {
+            std::memcpy (to, &value, sizeof value);
+            to += sizeof value;
+          }
         }
-      }
-    });
+      });
+    }
+    endRow ();
   }
 }
 
-/// Reads an element.
-/// \param keep whether to store its values in rows of its fields
+/// Reads an element of a text; passes over it if it is not kept.
 void
 readAscii (TextScanner& scanner, Element& element, bool keep, PolygonFans* fans)
 {
-  char* to = keep ? allocateRows (fieldsOf (element), element.count).get () : nullptr;
-  for (std::size_t i = 0; i < element.count; ++i) {
+  const auto nextRow = [&] (std::size_t row) {
     if (!scanner.nextFilledLine ())
-      failTruncated (element, i);
-    if (!keep)
-      continue;
-    readRow (element, to, fans,
-             [&scanner] (auto tag) { return scanner.number<decltype (tag)> (); });
-    if (!scanner.word ().empty ())
-      scanner.fail ("it has more values than there are properties");
-  }
+      failPromise (element.what (), element.count, row);
+  };
+  if (!keep)
+    for (std::size_t row = 0; row < element.count; ++row)
+      nextRow (row);
+  else
+    readRows (
+        element, keep, fans, nextRow,
+        [&scanner] (auto tag) { return scanner.number<decltype (tag)> (); },
+        [&scanner] {
+          if (scanner.hasWord ())
+            scanner.fail ("it has more values than there are properties");
+        });
 }
 
-/// As readAscii, for a binary element with lists.
-/// \return the bytes that follow it
-std::string_view
-readLists (std::string_view bytes, ByteOrder order, Element& element, bool keep, PolygonFans* fans)
-{
-  char* to = keep ? allocateRows (fieldsOf (element), element.count).get () : nullptr;
-  for (std::size_t i = 0; i < element.count; ++i)
-    readRow (element, to, fans, [&] (auto tag) {
-      if (bytes.size () < sizeof tag)
-        failTruncated (element, i);
-      tag = readNumber<decltype (tag)> (bytes.data (), order);
-      bytes.remove_prefix (sizeof tag);
-      return tag;
-    });
-  return bytes;
-}
-
-/// As readAscii, for a binary element. Without lists, the fields are views of the file.
+/// Reads a binary element. Without lists, the fields are views of the file.
 /// \return the bytes that follow it
 std::string_view
 readBinary (const FileBytes& file, std::string_view bytes, ByteOrder order, Element& element,
             bool keep, PolygonFans* fans)
 {
   const std::vector<Field*> fields = fieldsOf (element);
-  if (fields.size () < element.properties.size ())
-    return readLists (bytes, order, element, keep, fans);
-  std::size_t row = 0;
-  for (const Field* field : fields)
-    row += field->pointBytes ();
-  viewRows (fields, file.at (file.view ().size () - bytes.size ()), order);
-  return bytes.substr (element.count * row); // within the file: see checkCount
+  if (fields.size () == element.properties.size ()) {
+    viewRows (fields, file.at (file.view ().size () - bytes.size ()), order);
+    return bytes.substr (element.count * rowBytes (fields)); // within the file: see requireRoom
+  }
+  std::size_t at = 0; // the row
+  readRows (
+      element, keep, fans, [&at] (std::size_t row) { at = row; },
+      [&] (auto tag) {
+        if (bytes.size () < sizeof tag)
+          failPromise (element.what (), element.count, at);
+        tag = readNumber<decltype (tag)> (bytes.data (), order);
+        bytes.remove_prefix (sizeof tag);
+        return tag;
+      },
+      [] {});
+  return bytes;
 }
 
-/// Rejects counts that are too large for the file, before anything is allocated.
-void
-checkCount (const Element& element, bool is_ascii, std::size_t bytes)
+std::size_t
+fewestBytes (const Element& element, bool is_ascii)
 {
   std::size_t fewest = 0;
   for (const Property& property : element.properties)
     fewest += is_ascii ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
-  // The last line of a text may end without a newline.
-  if (element.count > 0 && (fewest == 0 || element.count > (bytes + (is_ascii ? 1 : 0)) / fewest))
-    throw ReadError ("the header promises the element '" + element.name + "' " +
-                     counted (element.count, "time") + ", which is more than fits into " +
-                     counted (bytes, "byte") +
-                     " of data; the file is truncated or its header is wrong");
+  return fewest;
 }
 
 } // namespace
@@ -248,8 +239,9 @@ parsePly (const FileBytes& file, const ReadOptions& options)
   for (Element* element = header.elements.data (); element <= last; ++element) {
     PolygonFans* const its_fans = triangles != nullptr && element == faces ? &fans : nullptr;
     const bool keep = element == &vertices || its_fans != nullptr;
-    checkCount (*element, !header.byte_order,
-                header.byte_order ? rest.size () : scanner.rest ().size ());
+    // The last line of a text may end without a newline.
+    requireRoom (element->what (), element->count, fewestBytes (*element, !header.byte_order),
+                 header.byte_order ? rest.size () : scanner.rest ().size () + 1);
     if (header.byte_order)
       rest = readBinary (file, rest, *header.byte_order, *element, keep, its_fans);
     else

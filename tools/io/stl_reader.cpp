@@ -31,17 +31,16 @@ cloudOf (std::vector<std::array<Number, 3>> corners)
     return std::string_view (reinterpret_cast<const char*> (&corners[corner]), sizeof (Corner));
   };
   std::sort (order.begin (), order.end (), [&bytesOf] (std::size_t a, std::size_t b) {
-    const int difference = bytesOf (a).compare (bytesOf (b));
-    return difference != 0 ? difference < 0 : a < b;
+    return std::pair (bytesOf (a), a) < std::pair (bytesOf (b), b);
   });
   const auto areEqual = [&bytesOf] (std::size_t a, std::size_t b) {
     return bytesOf (a) == bytesOf (b);
   };
   order.erase (std::unique (order.begin (), order.end (), areEqual), order.end ());
   std::sort (order.begin (), order.end ());
-  std::vector<Corner> points (order.size ());
-  std::transform (order.begin (), order.end (), points.begin (),
-                  [&corners] (std::size_t corner) { return corners[corner]; });
+  std::vector<Corner> points;
+  for (const std::size_t corner : order)
+    points.push_back (corners[corner]);
   const std::size_t size = points.size ();
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, sizeof (Number) == 4 ? ScalarType::FLOAT32 : ScalarType::FLOAT64,
@@ -57,8 +56,7 @@ parseBinary (std::string_view bytes)
   const std::size_t facets =
       readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
   bytes.remove_prefix (STL_HEADER_BYTES + sizeof (std::uint32_t));
-  if (facets > bytes.size () / FACET_BYTES)
-    throw ReadError (brokenPromise (counted (facets, "facet"), bytes.size () / FACET_BYTES));
+  requireRoom ("facets", facets, FACET_BYTES, bytes.size ());
   std::vector<std::array<float, 3>> corners;
   for (std::size_t f = 0; f < facets; ++f)
     for (std::size_t corner = 1; corner <= 3; ++corner) {

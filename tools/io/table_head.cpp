@@ -91,9 +91,7 @@ columnOf (std::string_view text)
   Column column;
   column.name = trim (text.substr (0, text.find_first_of ("[(")));
   for (char& c : column.name)
-    c = TextScanner::isBlank (c) ? '_'
-        : c >= 'A' && c <= 'Z'   ? static_cast<char> (c - 'A' + 'a')
-                                 : c;
+    c = TextScanner::isBlank (c) ? '_' : lowerCase (c);
   constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
   if (column.name.rfind (SCALAR, 0) == 0)
     column.name.erase (0, SCALAR.size ());

@@ -54,7 +54,6 @@ public:
 
   std::size_t rows () const { return values_.size () / width_; }
 
-  /// Reads a line with a point.
   /// \throws ReadError if it has other columns than those before it
   void readRow (const TextScanner& scanner, std::string_view line)
   {

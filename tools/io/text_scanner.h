@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cloud.h"
+#include "format.h"
 
 #include <algorithm>
 #include <charconv>
@@ -44,11 +45,8 @@ parseNumber (std::string_view word, T& number)
 inline bool
 isWord (std::string_view a, std::string_view b)
 {
-  const auto lower = [] (char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char> (c - 'A' + 'a') : c;
-  };
   return std::equal (a.begin (), a.end (), b.begin (), b.end (),
-                     [&] (char x, char y) { return lower (x) == lower (y); });
+                     [] (char x, char y) { return lowerCase (x) == lowerCase (y); });
 }
 
 /// Scans a text. Lines end with \n or \r\n, or with \r in a text without \n; words are separated by
@@ -94,7 +92,6 @@ public:
     return false;
   }
 
-  /// Whether the rest of the line has a word.
   bool hasWord ()
   {
     skipBlanks ();
@@ -111,7 +108,6 @@ public:
     return text_.substr (first, at_ - first);
   }
 
-  /// Reads the rest of the line.
   std::string_view restOfLine ()
   {
     const std::size_t first = at_;
@@ -125,7 +121,6 @@ public:
     return rest ().find_first_not_of (" \t\r\n\v\f") == std::string_view::npos;
   }
 
-  /// What ends a line.
   char newline () const { return newline_; }
 
   /// The rest of the line and the text after it.
@@ -174,20 +169,5 @@ private:
   std::size_t next_ = 0; // start of the next line
   std::size_t line_ = 0; // number of the line, from 1
 };
-
-/// Parses `field.count` words as values of a point.
-/// \return where the next values go
-inline char*
-scanField (TextScanner& scanner, const Field& field, char* to)
-{
-  visitType (field.type, [&] (auto tag) {
-    using T = decltype (tag);
-    for (std::size_t c = 0; c < field.count; ++c, to += sizeof (T)) {
-      const T number = scanner.number<T> ();
-      std::memcpy (to, &number, sizeof (T));
-    }
-  });
-  return to;
-}
 
 } // namespace pcl::floater

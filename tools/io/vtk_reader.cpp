@@ -121,15 +121,12 @@ private:
   {
     if (is_binary_)
       skipLine ();
-    std::size_t row_bytes = 0, values = 0;
-    for (const Field* field : fields) {
-      row_bytes += field->pointBytes ();
-      values += field->count;
-    }
-    // A value of a text is a digit and a blank, but for the last one of the file.
-    const std::size_t fewest = is_binary_ ? row_bytes : 2 * values;
-    if (rows > (bytes_.size () - at_ + (is_binary_ ? 0 : 1)) / fewest)
-      throw ReadError ("its " + section_ + " end before their values do; it is truncated");
+    const std::size_t row_bytes = rowBytes (fields);
+    std::size_t text_bytes = 0; // a value of a text is a digit and a blank, but for the last one
+    for (const Field* field : fields)
+      text_bytes += 2 * field->count;
+    requireRoom ("rows of its " + section_, rows, is_binary_ ? row_bytes : text_bytes,
+                 bytes_.size () - at_ + (is_binary_ ? 0 : 1));
     if (is_binary_) {
       viewRows (fields, file_.at (at_), ByteOrder::BIG);
       at_ += rows * row_bytes;

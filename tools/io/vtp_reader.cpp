@@ -40,18 +40,17 @@ public:
 
   std::string read (std::size_t bytes)
   {
-    std::string result (std::min (bytes, text_.size () + group_.size ()), '\0');
-    for (char& c : result) {
-      if (is_raw_ ? text_.empty () : group_.empty () && !decodeGroup ())
-        break;
-      std::string_view& from = is_raw_ ? text_ : group_;
-      c = from.front ();
-      from.remove_prefix (1);
-      --bytes;
+    if (is_raw_) {
+      decoded_ = text_.substr (0, bytes);
+      text_.remove_prefix (decoded_.size ());
     }
-    if (bytes > 0)
+    while (decoded_.size () < bytes && decodeGroup ()) {}
+    if (decoded_.size () < bytes)
       throw ReadError ("an array ends before its values do; it is truncated");
-    return result;
+    std::string rest = decoded_.substr (bytes);
+    decoded_.resize (bytes);
+    std::swap (decoded_, rest);
+    return rest;
   }
 
 private:
@@ -61,10 +60,9 @@ private:
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::uint32_t bits = 0;
     std::size_t digits = 0, padding = 0;
-    while (digits + padding < 4 && !text_.empty ()) {
+    for (; digits + padding < 4 && !is_raw_ && !text_.empty (); text_.remove_prefix (1)) {
       const std::size_t digit = DIGITS.find (text_.front ());
       padding += text_.front () == '=' ? 1 : 0;
-      text_.remove_prefix (1);
       if (digit == std::string_view::npos)
         continue;
       bits = bits << 6U | static_cast<std::uint32_t> (digit);
@@ -73,15 +71,14 @@ private:
     if (digits + padding < 4 || digits < 2)
       return false;
     bits <<= 6U * padding;
-    for (std::size_t i = 0; i < 3; ++i)
-      bytes_[i] = static_cast<char> (bits >> (16U - 8U * i) & 255U);
-    group_ = {bytes_.data (), digits - 1};
+    for (std::size_t i = 0; i + 1 < digits; ++i)
+      decoded_ += static_cast<char> (bits >> (16U - 8U * i) & 255U);
     return true;
   }
 
-  std::string_view text_, group_;
-  std::array<char, 3> bytes_{};
+  std::string_view text_;
   bool is_raw_;
+  std::string decoded_; // of the last group, what has not been read
 };
 
 class VtpParser
