@@ -15,7 +15,8 @@
 namespace pcl::floater {
 namespace {
 FieldTriple
-findTriple (const Cloud& cloud, const std::array<const char*, 3>& names)
+findTriple (const Cloud& cloud, const std::array<const char*, 3>& names,
+            std::initializer_list<ScalarType> types)
 {
   FieldTriple triple{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -23,7 +24,8 @@ findTriple (const Cloud& cloud, const std::array<const char*, 3>& names)
     if (!triple[i] || triple[i]->count != 1 || triple[i]->type != triple[0]->type)
       return {};
   }
-  return triple;
+  const bool fits = std::find (types.begin (), types.end (), triple[0]->type) != types.end ();
+  return fits ? triple : FieldTriple{};
 }
 
 std::size_t
@@ -178,17 +180,13 @@ narrowColors (Cloud& cloud)
 FieldTriple
 colorFields (const Cloud& cloud)
 {
-  const FieldTriple colors = findTriple (cloud, {"red", "green", "blue"});
-  return colors[0] && colors[0]->type == ScalarType::UINT8 ? colors : FieldTriple{};
+  return findTriple (cloud, {"red", "green", "blue"}, {ScalarType::UINT8});
 }
 
 FieldTriple
 normalFields (const Cloud& cloud)
 {
-  const FieldTriple normals = findTriple (cloud, {"nx", "ny", "nz"});
-  const bool are_floats = normals[0] && (normals[0]->type == ScalarType::FLOAT32 ||
-                                         normals[0]->type == ScalarType::FLOAT64);
-  return are_floats ? normals : FieldTriple{};
+  return findTriple (cloud, {"nx", "ny", "nz"}, {ScalarType::FLOAT32, ScalarType::FLOAT64});
 }
 
 Cloud
@@ -234,14 +232,8 @@ std::vector<Eigen::Vector3d>
 Cloud::positions () const
 {
   std::vector<Eigen::Vector3d> result (size ());
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    visitType (coordinates[axis].type, [&] (auto tag) {
-      for (std::size_t i = 0; i < result.size (); ++i)
-        result[i][static_cast<Eigen::Index> (axis)] =
-            static_cast<double> (coordinates[axis].value<decltype (tag)> (row (i))) *
-                coordinates[axis].scale +
-            coordinates[axis].offset - shift[static_cast<Eigen::Index> (axis)];
-    });
+  for (std::size_t i = 0; i < result.size (); ++i)
+    result[i] = position (i);
   return result;
 }
 
