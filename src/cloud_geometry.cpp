@@ -70,7 +70,8 @@ removeOutliers (Points& points, const std::vector<Index>& outliers, Report& repo
   if (outliers.empty ())
     return;
   const std::vector<Index> cloud_indices = removePoints (points, outliers);
-  reportOutliers (cloud_indices, points.total (), report);
+  report.statistics.working_points = points.total ();
+  reportOutliers (cloud_indices, FindingId::OUTLIERS, report);
 }
 
 Problem

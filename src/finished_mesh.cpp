@@ -25,21 +25,6 @@ examineWithCrossing (const TriangleMesh& mesh, const Points& points, const Local
   return found;
 }
 
-Problem
-nothingMade ()
-{
-  return {RunStatus::DEGENERATE,
-          "no three points make a triangle of a surface: they lie along lines or curves, or each "
-          "on its own; a surface needs points side by side"};
-}
-
-// Not where noisy points were projected: the true triangles cross each other there.
-bool
-removesCrossings (const Points& points, const Options& options)
-{
-  return options.remove_self_intersections && options.flip_edges && points.projected.empty ();
-}
-
 } // namespace
 
 MeshExamination
@@ -79,8 +64,10 @@ uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, Local
 {
   checkCrossing (mesh.triangles, points, request.run, found, std::move (known));
   statistics.self_intersections_found = found.crossing.size ();
+  // Where noisy points were projected, the true triangles cross each other.
   if (found.crossing.empty () || !found.crossing.untested.empty () ||
-      !removesCrossings (points, request.options))
+      !request.options.remove_self_intersections || !request.options.flip_edges ||
+      !points.projected.empty ())
     return;
   if (geometry.neighbors.rows () == 0)
     geometry.neighbors =
@@ -105,7 +92,9 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
 {
   Report& report = result.report;
   if (mesh.triangles.empty ())
-    return nothingMade ();
+    return {RunStatus::DEGENERATE,
+            "no three points make a triangle of a surface: they lie along lines or curves, or each "
+            "on its own; a surface needs points side by side"};
   Trimming trimming;
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =
@@ -130,7 +119,10 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   report.statistics.remade_points = finish.remade_points;
   report.statistics.triangles = triangles.size ();
   report.check.largest_area_share = largestAreaShare (triangles, points.positions);
-  result.triangles = inCloud (points, std::move (triangles));
+  for (Triangle& triangle : triangles)
+    for (Index& p : triangle)
+      p = points.cloud_index[p];
+  result.triangles = std::move (triangles);
   return problem;
 }
 

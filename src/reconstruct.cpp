@@ -9,7 +9,6 @@
 #include "core/problem.h"
 #include "finished_mesh.h"
 #include "input/input.h"
-#include "known_stages.h"
 #include "local/stars.h"
 #include "options/check_options.h"
 #include "options/stage_limits.h"
@@ -22,7 +21,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -30,25 +28,6 @@
 namespace pcl::floater {
 namespace {
 constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as others
-
-DiscSettings
-discSettings (const Points& points, const Request& request)
-{
-  const Options& options = request.options;
-  const Limits& limits = request.limits;
-  DiscSettings settings;
-  settings.neighborhood = options.neighbors.kind;
-  settings.stars.filter_sheets = options.filter_sheets;
-  settings.stars.limits = limits.sheets;
-  settings.parameterization = {options.disc.weighting, options.disc.domain, options.disc.solver,
-                               !options.disc.as_published};
-  settings.as_published = options.disc.as_published;
-  settings.flip_edges = options.flip_edges;
-  settings.facing = facingHints (points, request);
-  settings.limits = limits.disc;
-  settings.finish = limits.surface.finish;
-  return settings;
-}
 
 // TW 385, section 3: boundary points as one ordered loop.
 Boundary
@@ -66,28 +45,11 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   return boundary;
 }
 
-Disc
-layOutDisc (const Points& points, LocalGeometry& geometry, const Request& request)
-{
-  Boundary boundary = findLoop (points, geometry, request);
-  if (boundary.problem) {
-    Disc none;
-    none.problem = boundary.problem;
-    none.boundary = std::move (boundary);
-    return none;
-  }
-  return makeDisc (points, geometry, std::move (boundary), discSettings (points, request),
-                   request.run);
-}
-
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
 Problem
 checkDisc (const MeshExamination& found, std::vector<Index> loop)
 {
-  const auto turnToSmallest = [&loop] {
-    std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
-  };
-  turnToSmallest ();
+  std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
   bool is_right =
       found.isManifold () && found.isDisc () && found.loops.front ().points.size () == loop.size ();
   if (is_right && found.loops.front ().points != loop) {
@@ -110,7 +72,14 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                   : options.topology == Topology::DISC
                                       ? "asked for"
                                       : "its boundary loop is given";
-  Disc disc = layOutDisc (points, geometry, request);
+  const Limits& limits = request.limits;
+  StarSettings stars;
+  stars.filter_sheets = options.filter_sheets;
+  stars.limits = limits.sheets;
+  Disc disc =
+      makeDisc (points, geometry, findLoop (points, geometry, request),
+                {options, stars, limits.disc, limits.surface.finish, facingHints (points, request)},
+                request.run);
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
@@ -131,7 +100,6 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
                                  options.flip_edges && options.remove_self_intersections,
                                  request.limits.surface, facingHints (points, request)};
   Surface surface = makeSurface (points, geometry, settings, request.run);
-  reportOrientationSeam (points, surface.orientation_seam, report);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
   std::optional<Points> all;
@@ -285,8 +253,10 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
   return reconstructByNeighbors (points, input.search, request, known, result);
 }
 
+} // namespace
+
 Result
-run (Input& input, const Options& options, const Limits& limits, KnownStages* known)
+reconstruct (Input input, const Options& options, const Limits& limits, KnownStages* known)
 {
   Result result;
   Problem problem;
@@ -326,8 +296,6 @@ run (Input& input, const Options& options, const Limits& limits, KnownStages* kn
   return result;
 }
 
-} // namespace
-
 Result
 reconstruct (Input input, const Options& options)
 {
@@ -337,45 +305,30 @@ reconstruct (Input input, const Options& options)
 Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
 {
-  const auto failed = [] (RunStatus status, const char* message) {
-    Result result;
-    result.report.status = status;
-    try {
-      result.report.message = message;
-    }
-    catch (const std::bad_alloc&) {
-      result.report.message = NO_MEMORY;
-    }
-    return result;
-  };
-  if (positions.empty ())
-    return failed (RunStatus::NO_INPUT, "the input cloud is empty");
-  if (positions.size () > std::numeric_limits<Index>::max ())
-    return failed (RunStatus::OUT_OF_MEMORY,
-                   "the cloud has more than 4294967295 points; reconstruct parts of it");
   Input input;
+  Problem problem;
   try {
-    input.cloud_index.resize (positions.size ());
+    if (positions.empty ())
+      problem = {RunStatus::NO_INPUT, "the input cloud is empty"};
+    else if (positions.size () > std::numeric_limits<Index>::max ())
+      problem = {RunStatus::OUT_OF_MEMORY,
+                 "the cloud has more than 4294967295 points; reconstruct parts of it"};
+    else
+      input.cloud_index.resize (positions.size ());
   }
-  catch (const std::bad_alloc&) {
-    return failed (RunStatus::OUT_OF_MEMORY, "not enough memory for the indices of the points");
+  catch (...) {
+    problem = problemOfException ();
+  }
+  if (problem) {
+    Result failed;
+    failed.report.status = problem.status;
+    failed.report.message = std::move (problem.message);
+    return failed;
   }
   std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
   input.cloud_size = positions.size ();
   input.positions = std::move (positions);
   return reconstruct (std::move (input), options);
-}
-
-Result
-reconstruct (Input input, const Options& options, const Limits& limits)
-{
-  return run (input, options, limits, nullptr);
-}
-
-Result
-reconstruct (Input input, const Options& options, const Limits& limits, KnownStages& known)
-{
-  return run (input, options, limits, &known);
 }
 
 } // namespace pcl::floater

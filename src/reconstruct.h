@@ -1,15 +1,45 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Entry point of the core with other limits than the default, for tests.
+// Entry point of the core with other limits than the default, or with stages that are known.
 #pragma once
 
+#include "local/local_geometry.h"
 #include "options/stage_limits.h"
+#include "points/points.h"
+#include "view/ray_evidence.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
+#include <vector>
+
 namespace pcl::floater {
+/// Stage results that were computed before. They must equal what reconstruct () would compute; then
+/// the mesh is the same. The functions are called in the order of a run.
+class KnownStages
+{
+public:
+  virtual ~KnownStages () = default;
+
+  /// The points of takePoints (), which also fills the report.
+  virtual Points points (Report& report) = 0;
+
+  /// Points that lie off any surface, ascending.
+  virtual std::vector<Index> outliers () = 0;
+
+  /// Planes of all points without outliers, without tree and neighbours beside lines.
+  virtual LocalPlanes planes () = 0;
+
+  /// See takeAreaSamples.
+  virtual std::vector<AreaSample> areaSamples () = 0;
+
+  /// See beginStars.
+  virtual Stars begunStars () = 0;
+};
+
 /// See the overload without limits.
+/// \param known if not nullptr: stages that are known, of a surface. The input then has no points
 Result
-reconstruct (Input input, const Options& options, const Limits& limits);
+reconstruct (Input input, const Options& options, const Limits& limits,
+             KnownStages* known = nullptr);
 
 } // namespace pcl::floater

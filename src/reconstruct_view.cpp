@@ -7,6 +7,7 @@
 #include "finished_mesh.h"
 #include "input/input.h"
 #include "mesh/check.h"
+#include "report/findings.h"
 #include "report/report_cloud.h"
 #include "view/ray_evidence.h"
 #include "view/view_method.h"
@@ -112,7 +113,6 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                    "none"};
   Report& report = result.report;
   report.topology = Topology::SURFACE;
-  report.statistics.holes_filled = surface.holes_filled;
   reportView (points, viewpoint, surface, report);
   std::optional<Points> all;
   if (!points.stacked.of.empty ()) {
@@ -121,7 +121,8 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   }
   const Points& vertices = all ? *all : points;
   if (is_doubtful && options.view.use == ViewUse::GIVEN)
-    reportDoubtfulView (vertices, found.unused.size (), report);
+    addFinding (report, FindingId::DOUBTFUL_VIEWPOINT, vertices, {}, found.unused.size (),
+                vertices.size ());
   if (options.remove_outliers)
     reportOutliersOfView (vertices, found.unused, report);
   reportCoordinateGrid (

@@ -5,7 +5,6 @@
 #include "consensus/orientation.h"
 #include "core/order_statistics.h"
 #include "floater/boundary/boundary.h"
-#include "floater/boundary/two_segment_loop.h"
 #include "mesh/insertion.h"
 
 #include <algorithm>

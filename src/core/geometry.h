@@ -3,6 +3,8 @@
 // Planes, frames and small geometry.
 #pragma once
 
+#include "core/types.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -13,6 +15,28 @@
 namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
 constexpr double DEGREE = PI / 180.0; ///< in radians
+
+/// The positions of some of the points.
+inline std::vector<Eigen::Vector3d>
+positionsOf (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& points)
+{
+  std::vector<Eigen::Vector3d> some;
+  some.reserve (points.size ());
+  for (const Index p : points)
+    some.push_back (positions[p]);
+  return some;
+}
+
+/// Length of a closed loop of points in space or in the plane.
+template <typename Vector>
+double
+perimeter (const std::vector<Vector>& positions, const std::vector<Index>& loop)
+{
+  double length = 0.0;
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    length += (positions[loop[(i + 1) % loop.size ()]] - positions[loop[i]]).norm ();
+  return length;
+}
 
 /// Twice the signed area of the triangle of the origin, a and b; positive if b is to the left of a.
 inline double

@@ -48,12 +48,9 @@ HelperThreads::help ()
       work = std::move (begun_.back ());
       begun_.pop_back ();
     }
-    work.run ();
-    {
-      const std::lock_guard<std::mutex> lock (mutex_);
-      ++waiting_;
-    }
-    work.ended ();
+    work ();
+    const std::lock_guard<std::mutex> lock (mutex_);
+    ++waiting_;
   }
 }
 

@@ -16,19 +16,9 @@ namespace pcl::floater {
 class HelperThreads
 {
 public:
-  /// Neither function may throw.
-  struct Work
-  {
-    std::function<void ()> run;
-    std::function<void ()> ended; ///< called after it, when the thread is free again
-  };
+  using Work = std::function<void ()>; // must not throw
 
-  HelperThreads () = default;
   ~HelperThreads ();
-  HelperThreads (const HelperThreads&) = delete;
-  HelperThreads& operator= (const HelperThreads&) = delete;
-  HelperThreads (HelperThreads&&) = delete;
-  HelperThreads& operator= (HelperThreads&&) = delete;
 
   /// Gives work to an idle thread or to a new one. It is never queued behind other work, so work
   /// may wait for work that it starts.
@@ -41,7 +31,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Work> begun_; // for which threads were woken or started
-  std::size_t waiting_ = 0; // threads without work
+  std::size_t waiting_ = 0; // threads without work, less those that were woken
   bool is_ending_ = false;
   std::vector<std::thread> threads_;
 };

@@ -49,4 +49,18 @@ facingRuleName (FacingRule rule)
   return nameOf (NAMES, rule);
 }
 
+const char*
+severityName (Severity severity)
+{
+  static constexpr const char* NAMES[] = {"note", "doubt", "flaw"};
+  return nameOf (NAMES, severity);
+}
+
+const char*
+qualityName (Quality quality)
+{
+  static constexpr const char* NAMES[] = {"none", "good", "usable", "poor"};
+  return nameOf (NAMES, quality);
+}
+
 } // namespace pcl::floater

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranks in unsorted lists, and sorting.
+// Ranks in unsorted lists, sorting, and erasing.
 #pragma once
 
 #include <algorithm>
@@ -53,6 +53,22 @@ quantile (std::vector<Value>& values, double share)
 {
   const auto rank = static_cast<std::size_t> (share * static_cast<double> (values.size ()));
   return valueAtRank (values, std::min (rank, values.size () - 1));
+}
+
+/// Erases the values of some rows. O(n).
+/// \param rows ascending
+template <typename Value, typename Rows>
+void
+eraseRows (std::vector<Value>& values, const Rows& rows)
+{
+  auto next = rows.begin ();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size (); ++i)
+    if (next != rows.end () && *next == i)
+      ++next;
+    else
+      values[kept++] = values[i];
+  values.resize (kept);
 }
 
 /// Sorts ascending and removes repeated values. O(n log n).

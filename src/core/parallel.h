@@ -48,8 +48,6 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
       for (std::size_t i = next++; i < count; i = next++)
         body (i);
     });
-  };
-  const auto end = [&] {
     const std::lock_guard<std::mutex> lock (mutex);
     --running;
     ended.notify_one ();
@@ -61,7 +59,7 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
   try {
     for (std::size_t t = 1; t < wanted; ++t) {
       const std::lock_guard<std::mutex> lock (mutex);
-      helpers.start ({std::cref (help), std::cref (end)});
+      helpers.start (std::cref (help));
       ++running;
     }
   }

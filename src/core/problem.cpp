@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/problem.h"
 
-#include "core/index_limit.h"
+#include "core/csr_lists.h"
 #include "core/run_context.h"
 
 #include <new>
 #include <stdexcept>
 
 namespace pcl::floater {
-namespace {
 Problem
-describeException ()
-{
+problemOfException () noexcept
+try {
   try {
     throw;
   }
@@ -36,18 +35,8 @@ describeException ()
     return {RunStatus::INTERNAL_ERROR, "unexpected error: a callback threw an unknown type"};
   }
 }
-
-} // namespace
-
-Problem
-problemOfException () noexcept
-{
-  try {
-    return describeException ();
-  }
-  catch (...) {
-    return {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
-  }
+catch (...) {
+  return {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
 }
 
 } // namespace pcl::floater

@@ -86,7 +86,8 @@ RunMonitor::poll ()
     is_cancelled_ = true;
     throw Cancelled ();
   }
-  tell ();
+  if (callbacks_.progress)
+    callbacks_.progress (std::min (done_, 1.0));
   last_poll_ = Clock::now ();
   if (last_poll_ - start > QUICK)
     next_poll_ = last_poll_ + REST * (last_poll_ - start);
@@ -100,18 +101,12 @@ RunMonitor::pollNowAndThen ()
 }
 
 void
-RunMonitor::tell ()
-{
-  if (callbacks_.progress)
-    callbacks_.progress (std::min (done_, 1.0));
-}
-
-void
 RunMonitor::finish ()
 {
   stopClock ();
   done_ = 1.0;
-  tell ();
+  if (callbacks_.progress)
+    callbacks_.progress (done_);
 }
 
 RunContext::RunContext (int threads, RunMonitor* monitor)
@@ -145,14 +140,6 @@ RunContext::setMethod (Topology method) const
 {
   if (monitor_ != nullptr && !is_within_stage_)
     monitor_->setMethod (method);
-}
-
-RunContext
-RunContext::withinStage () const
-{
-  RunContext context = *this;
-  context.is_within_stage_ = true;
-  return context;
 }
 
 ProgressLoop::ProgressLoop (const RunContext& run, std::size_t items)

@@ -56,10 +56,6 @@ public:
   /// \param statistics receives the times; must outlive the monitor
   RunMonitor (Callbacks callbacks, Statistics& statistics);
   ~RunMonitor () { stopClock (); }
-  RunMonitor (const RunMonitor&) = delete;
-  RunMonitor& operator= (const RunMonitor&) = delete;
-  RunMonitor (RunMonitor&&) = delete;
-  RunMonitor& operator= (RunMonitor&&) = delete;
 
   /// Sets the method that makes the mesh, DISC or SURFACE (the default).
   void setMethod (Topology method) { is_disc_ = method == Topology::DISC; }
@@ -99,7 +95,6 @@ private:
 
   bool isOwnThread () const { return std::this_thread::get_id () == owner_; }
   void poll ();
-  void tell ();
 
   QuietNumbers quiet_; // of the run
   Callbacks callbacks_;
@@ -153,7 +148,12 @@ public:
 
   /// A context for stages within the running stage. They are not reported to the caller, and their
   /// time belongs to the running stage. They can be cancelled.
-  RunContext withinStage () const;
+  RunContext withinStage () const
+  {
+    RunContext context = *this;
+    context.is_within_stage_ = true;
+    return context;
+  }
 
 private:
   friend class ProgressLoop;
@@ -177,8 +177,6 @@ public:
   ~ProgressLoop ();
   ProgressLoop (const ProgressLoop&) = delete;
   ProgressLoop& operator= (const ProgressLoop&) = delete;
-  ProgressLoop (ProgressLoop&&) = delete;
-  ProgressLoop& operator= (ProgressLoop&&) = delete;
 
   /// Counts one item. Polls at every 256th, which take less than a tenth of a second.
   /// \throws Cancelled

@@ -11,22 +11,19 @@
 
 namespace pcl::floater {
 namespace {
-struct OpenBlas
-{
-  using Get = int (*) ();
-  using Set = void (*) (int);
-  Get get = reinterpret_cast<Get> (dlsym (RTLD_DEFAULT, "openblas_get_num_threads"));
-  Set set = reinterpret_cast<Set> (dlsym (RTLD_DEFAULT, "openblas_set_num_threads"));
-  std::mutex mutex;
-  int users = 0;
-  int threads = 1; // before the first user
-};
+using Get = int (*) ();
+using Set = void (*) (int);
 
-OpenBlas&
-openBlas ()
+std::mutex blas_mutex; // guards the next two
+int blas_users = 0;
+int threads_before = 1; // before the first user
+
+// Of OpenBLAS, if that is the BLAS of the process; else nullptr.
+template <typename Function>
+Function
+blasFunction (const char* name)
 {
-  static OpenBlas instance;
-  return instance;
+  return reinterpret_cast<Function> (dlsym (RTLD_DEFAULT, name));
 }
 
 // OpenBLAS maps a work buffer at its first use, and retries forever if memory is short.
@@ -43,22 +40,22 @@ hasRoomForBuffer ()
 
 SingleBlasThread::SingleBlasThread ()
 {
-  OpenBlas& blas = openBlas ();
-  if (blas.set != nullptr && !hasRoomForBuffer ())
+  const auto get = blasFunction<Get> ("openblas_get_num_threads");
+  const auto set = blasFunction<Set> ("openblas_set_num_threads");
+  if (set != nullptr && !hasRoomForBuffer ())
     throw std::bad_alloc ();
-  const std::lock_guard<std::mutex> lock (blas.mutex);
-  if (blas.users++ > 0 || blas.get == nullptr || blas.set == nullptr)
+  const std::lock_guard<std::mutex> lock (blas_mutex);
+  if (blas_users++ > 0 || get == nullptr || set == nullptr)
     return;
-  blas.threads = blas.get ();
-  blas.set (1);
+  threads_before = get ();
+  set (1);
 }
 
 SingleBlasThread::~SingleBlasThread ()
 {
-  OpenBlas& blas = openBlas ();
-  const std::lock_guard<std::mutex> lock (blas.mutex);
-  if (--blas.users == 0 && blas.threads != 1)
-    blas.set (blas.threads);
+  const std::lock_guard<std::mutex> lock (blas_mutex);
+  if (--blas_users == 0 && threads_before != 1)
+    blasFunction<Set> ("openblas_set_num_threads") (threads_before);
 }
 
 } // namespace pcl::floater

@@ -27,9 +27,7 @@ std::vector<double>
 placeOnCurve (const std::vector<double>& chords, std::size_t first, std::size_t last,
               double curve_length)
 {
-  double total = 0.0;
-  for (std::size_t i = first; i < last; ++i)
-    total += chords[i];
+  const double total = std::accumulate (chords.data () + first, chords.data () + last, 0.0);
   const std::size_t steps = last - first;
   const double shortest =
       std::min (SHORTEST_STEP / curve_length, 0.5 / static_cast<double> (steps));
@@ -49,9 +47,7 @@ placeOnCurve (const std::vector<double>& chords, std::size_t first, std::size_t 
 std::vector<std::size_t>
 cornerPoints (const std::vector<double>& chords, std::size_t corners)
 {
-  double total = 0.0;
-  for (const double chord : chords)
-    total += chord;
+  const double total = std::accumulate (chords.begin (), chords.end (), 0.0);
   std::vector<std::size_t> points{0};
   std::size_t i = 0;
   double length = 0.0; // from point 0 to point i
@@ -98,18 +94,6 @@ layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_p
       uv.emplace_back (from + t * side + t * (1.0 - t) * bulge);
   }
   return uv;
-}
-
-std::vector<Eigen::Vector2d>
-layOnRegularPolygon (const std::vector<double>& chords, std::size_t corners)
-{
-  std::vector<Eigen::Vector2d> places;
-  for (std::size_t c = 0; c < corners; ++c) {
-    const double angle =
-        2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;
-    places.emplace_back (std::cos (angle), std::sin (angle));
-  }
-  return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 
 using Outline = std::vector<Eigen::Vector2d>;
@@ -205,27 +189,18 @@ isFit (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d
          !crowded (after.norm (), steps_after);
 }
 
-// A convex polygon whose corners are points of a loop.
-struct OwnShape
-{
-  std::vector<std::size_t> corners;    // indices in the loop, ascending; empty: there is no shape
-  std::vector<Eigen::Vector2d> places; // of the corners, anti-clockwise, in the unit circle
-};
-
-// Projects the loop on its least-squares plane, seen anti-clockwise, and scales it into the unit
-// circle around the middle of its extent along its principal axes. The corners are the vertices of
-// the convex hull except for those in another order along the loop than along the hull (where the
-// projection crosses itself), those at which the hull turns too little for bulging sides, and those
-// too near to the next one for the points between them. There is no shape if fewer than three are
-// left. O(n log n).
-OwnShape
-findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
+// The corners of the loop's own shape, as indices in the loop, ascending: the vertices of the convex
+// hull of its outline except for those in another order along the loop than along the hull (where
+// the projection crosses itself), those at which the hull turns too little for bulging sides, and
+// those too near to the next one for the points between them. None if fewer than three are left.
+// O(n log n).
+std::vector<std::size_t>
+cornersOfOwnShape (const Outline& outline)
 {
   constexpr std::size_t FEWEST = 3;
-  const Outline outline = project (positions, loop);
   std::vector<std::size_t> corners = inLoopOrder (convexHull (outline));
-  const auto steps = [&loop] (std::size_t from, std::size_t to) {
-    return to > from ? to - from : to + loop.size () - from;
+  const auto steps = [&outline] (std::size_t from, std::size_t to) {
+    return to > from ? to - from : to + outline.size () - from;
   };
   // Repeatedly drops corners that do not fit between the remaining ones.
   for (bool changed = true; changed && corners.size () >= FEWEST;) {
@@ -241,13 +216,9 @@ findOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<I
     changed = kept.size () < corners.size ();
     corners = std::move (kept);
   }
-  OwnShape shape;
   if (corners.size () < FEWEST)
-    return shape;
-  for (const std::size_t corner : corners)
-    shape.places.push_back (outline[corner]);
-  shape.corners = std::move (corners);
-  return shape;
+    corners.clear ();
+  return corners;
 }
 
 // Whether a closed polygon turns left at every point and once around in total, in double precision.
@@ -273,31 +244,29 @@ std::vector<Eigen::Vector2d>
 layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
                std::vector<double> chords)
 {
-  OwnShape shape = findOwnShape (positions, loop);
-  if (shape.corners.empty ())
+  const Outline outline = project (positions, loop);
+  std::vector<std::size_t> corners = cornersOfOwnShape (outline);
+  if (corners.empty ())
     return {};
+  Outline places;
+  for (const std::size_t corner : corners)
+    places.push_back (outline[corner]);
   // The first corner must be the first point of the loop: rotate the loop, and the result back.
-  const auto turn = static_cast<std::ptrdiff_t> (shape.corners.front ());
-  for (std::size_t& corner : shape.corners)
+  const auto turn = static_cast<std::ptrdiff_t> (corners.front ());
+  for (std::size_t& corner : corners)
     corner -= static_cast<std::size_t> (turn);
   std::rotate (chords.begin (), chords.begin () + turn, chords.end ());
-  std::vector<Eigen::Vector2d> uv = layOnSides (chords, shape.corners, shape.places);
+  Outline uv = layOnSides (chords, corners, places);
   std::rotate (uv.begin (), uv.end () - turn, uv.end ());
-  return isStrictlyConvex (uv) ? uv : std::vector<Eigen::Vector2d> ();
+  return isStrictlyConvex (uv) ? uv : Outline{};
 }
 
 double
 stepLength (double distance, LoopSpacing spacing)
 {
-  switch (spacing) {
-  case LoopSpacing::CHORD_LENGTH:
-    break;
-  case LoopSpacing::CENTRIPETAL:
-    return std::sqrt (distance);
-  case LoopSpacing::UNIFORM:
+  if (spacing == LoopSpacing::UNIFORM)
     return 1.0;
-  }
-  return distance;
+  return spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (distance) : distance;
 }
 
 } // namespace
@@ -320,7 +289,14 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   if (options.curve == Domain::CIRCLE || options.curve == Domain::OWN_SHAPE)
     return layOnCircle (chords);
   const int sides = options.curve == Domain::SQUARE ? 4 : std::max (3, options.polygon_sides);
-  return layOnRegularPolygon (chords, std::min (count, static_cast<std::size_t> (sides)));
+  const std::size_t corners = std::min (count, static_cast<std::size_t> (sides));
+  Outline places; // of a regular polygon
+  for (std::size_t c = 0; c < corners; ++c) {
+    const double angle =
+        2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;
+    places.emplace_back (std::cos (angle), std::sin (angle));
+  }
+  return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 
 } // namespace pcl::floater

@@ -29,8 +29,6 @@ namespace pcl::floater {
 /// middle of a square's side), and steps are widened to 4e-6, or to half of the mean step of their
 /// side if that is less. On a straight side, an interior point whose neighbours are all on it would
 /// fall on it. O(loop), OWN_SHAPE O(loop log loop).
-/// \param positions per point
-/// \param loop      points in order, at least 3
 /// \return parameters, parallel to the loop
 std::vector<Eigen::Vector2d>
 layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,

@@ -5,7 +5,6 @@
 #include "core/order_statistics.h"
 #include "floater/domain.h"
 #include "floater/planar_delaunay.h"
-#include "floater/region_recursion.h"
 #include "floater/weights.h"
 
 #include <algorithm>
@@ -44,24 +43,6 @@ search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
   }
 }
 
-// Links point p to the nearest reached points. Ties go to the smaller point.
-void
-linkPoint (Index p, const CsrLists& nearest, const CsrLists& nearest_of,
-           const std::vector<Eigen::Vector3d>& positions,
-           const std::vector<std::uint8_t>& reachable, std::size_t most,
-           std::vector<std::array<Index, 2>>& links)
-{
-  std::vector<std::pair<double, Index>> candidates;
-  for (const Row row : {nearest.row (p), nearest_of.row (p)})
-    for (const Index q : row)
-      if (reachable[q] != 0)
-        candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
-  sortUnique (candidates);
-  candidates.resize (std::min (candidates.size (), most));
-  for (const auto& candidate : candidates)
-    links.push_back ({p, candidate.second});
-}
-
 } // namespace
 
 Reachability
@@ -90,6 +71,7 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
       nearest, [&] (std::size_t p, Index q) { return reachable[p] == 0 || reachable[q] == 0; });
   std::vector<std::uint8_t> waiting (positions.size (), 0); // listed for linking
   std::vector<Index> round;
+  std::vector<std::pair<double, Index>> candidates;
   for (std::size_t head = 0; head < queue.size ();) {
     // Unreached points next to a point that was reached since the last round.
     round.clear ();
@@ -100,9 +82,17 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
             waiting[p] = 1;
             round.push_back (p);
           }
-    for (const Index p : round)
-      linkPoint (p, nearest, nearest_of, positions, reachable, limits.links_per_point,
-                 result.links);
+    // Each is linked to the nearest reached points. Ties go to the smaller point.
+    for (const Index p : round) {
+      candidates.clear ();
+      for (const Row row : {nearest.row (p), nearest_of.row (p)})
+        for (const Index q : row)
+          if (reachable[q] != 0)
+            candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
+      sortUnique (candidates);
+      for (std::size_t i = 0; i < std::min (candidates.size (), limits.links_per_point); ++i)
+        result.links.push_back ({p, candidates[i].second});
+    }
     for (const Index p : round)
       reachable[p] = 1;
     queue.insert (queue.end (), round.begin (), round.end ());
@@ -141,47 +131,22 @@ addLinks (const std::vector<std::array<Index, 2>>& links, CsrLists& neighbors,
   weights = std::move (wider_weights);
 }
 
-Problem
-describeOutcome (const Solution& solution)
-{
-  switch (solution.outcome) {
-  case Solution::Outcome::OK:
-    return {};
-  case Solution::Outcome::SINGULAR:
-    return {RunStatus::SINGULAR,
-            "the linear system is singular (" + solution.message + "); use more neighbours"};
-  case Solution::Outcome::NOT_CONVERGED:
-    return {RunStatus::NOT_CONVERGED,
-            solution.message + "; allow more iterations, or use a direct solver"};
-  case Solution::Outcome::UNAVAILABLE:
-    return {RunStatus::SOLVER_UNAVAILABLE, solution.message};
-  case Solution::Outcome::OUT_OF_MEMORY:
-    return {RunStatus::OUT_OF_MEMORY, "not enough memory for the factorization (" +
-                                          solution.message +
-                                          "): use fewer points, or a machine with more memory"};
-  case Solution::Outcome::FAILED:
-    break;
-  }
-  return {RunStatus::INTERNAL_ERROR, "the linear system was not solved (" + solution.message + ")"};
-}
-
 } // namespace
 
 Parameterization
 parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
-              const std::vector<Index>& loop, const ParameterizationSettings& settings,
-              const RunContext& run, const DiscLimits& limits)
+              const std::vector<Index>& loop, const DiscOptions& options, const RunContext& run,
+              const DiscLimits& limits)
 {
   Parameterization result;
   run.beginStage (Stage::WEIGHTS);
-  std::vector<double> weights = computeWeights (stars, settings.weighting, run);
+  std::vector<double> weights = computeWeights (stars, options.weighting, run);
   CsrLists neighbors = std::move (stars.neighbors);
   stars = {};
 
-  CsrLists no_links;
-  if (!settings.link_points)
-    no_links.offsets.assign (positions.size () + 1, 0);
-  const Reachability reach = reachLoop (neighbors, settings.link_points ? nearest : no_links,
+  CsrLists no_links; // TW 385 has none
+  no_links.offsets.assign (positions.size () + 1, 0);
+  const Reachability reach = reachLoop (neighbors, options.as_published ? no_links : nearest,
                                         positions, loop, run, limits);
   addLinks (reach.links, neighbors, weights);
   result.relinked = reach.linked_points;
@@ -197,7 +162,7 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
             "more neighbours"};
     return result;
   }
-  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, settings.domain);
+  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, options.domain);
   LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable);
   neighbors = {};
   std::vector<double> ().swap (weights);
@@ -205,8 +170,8 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   result.nonzeros = system.nonzeros ();
 
   run.beginStage (Stage::SOLVE);
-  Solution solution = solve (system, settings.solver, run);
-  result.problem = describeOutcome (solution);
+  Solution solution = solve (system, options.solver, run);
+  result.problem = solution.problem;
   const Eigen::MatrixX2d solved = std::move (solution.uv);
   result.solution = std::move (solution);
   if (result.problem)
@@ -223,34 +188,24 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
 
 // The stages of TW 385 in order, with its sections and equations.
 
-namespace {
-Problem
-describeFolds (const Disc& disc)
-{
-  return {RunStatus::NOT_A_DISC,
-          std::to_string (disc.finish.folds) + " of " +
-              std::to_string (disc.mesh.triangles.size () * 3 / 2) +
-              " edges are folded: the surface is not one disc with one boundary (it may be closed, "
-              "have handles or several components, or be sampled too thinly); let the topology be "
-              "chosen automatically, or reconstruct a part of the surface"};
-}
-
-} // namespace
-
 Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run)
 {
   Disc disc;
   disc.boundary = std::move (boundary);
+  disc.problem = disc.boundary.problem;
+  if (disc.problem)
+    return disc;
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   const std::vector<Index>& loop = disc.boundary.loop;
 
   // Section 2.1: the weights may be for all neighbours; the boundary needed Delaunay stars.
   run.beginStage (Stage::WEIGHTS);
   StarSettings star_settings = settings.stars;
-  if (settings.neighborhood == Neighborhood::NEAREST ||
-      settings.neighborhood == Neighborhood::BALL) {
+  const DiscOptions& options = settings.options.disc;
+  const Neighborhood neighborhood = settings.options.neighbors.kind;
+  if (neighborhood == Neighborhood::NEAREST || neighborhood == Neighborhood::BALL) {
     star_settings.kind = StarKind::ALL;
     geometry.stars =
         makeStars (positions, geometry.neighbors, geometry.stars.normals, star_settings, run);
@@ -260,7 +215,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // The normals are needed longer than the stars.
   std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
   disc.parameterization = parameterize (positions, geometry.neighbors, std::move (geometry.stars),
-                                        loop, settings.parameterization, run, settings.limits);
+                                        loop, options, run, settings.limits);
   geometry.stars = {};
   geometry.stars.normals = std::move (normals);
   disc.problem = disc.parameterization.problem;
@@ -273,20 +228,26 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   disc.mesh = triangulatePlane (uv, loop);
 
   // Beyond TW 385: collapsed regions are laid out again, level by level.
-  if (!settings.as_published)
+  if (!options.as_published)
     disc.levels = layOutCollapsedRegions (disc.mesh, uv, positions, geometry.neighbors,
-                                          geometry.stars.normals, loop, star_settings,
-                                          settings.parameterization, run, settings.limits);
+                                          geometry.stars.normals, loop, star_settings, options, run,
+                                          settings.limits);
 
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
   // edges are flipped in space.
   run.beginStage (Stage::FLIPS);
   disc.finish = finishMesh (disc.mesh, points.positions, geometry,
-                            {settings.flip_edges, settings.limits.largest_fold_share,
-                             settings.finish, settings.facing, !settings.as_published},
+                            {settings.options.flip_edges, settings.limits.largest_fold_share,
+                             settings.finish, settings.facing, !options.as_published},
                             run);
   if (!disc.finish.is_repairable)
-    disc.problem = describeFolds (disc);
+    disc.problem = {
+        RunStatus::NOT_A_DISC,
+        std::to_string (disc.finish.folds) + " of " +
+            std::to_string (disc.mesh.triangles.size () * 3 / 2) +
+            " edges are folded: the surface is not one disc with one boundary (it may be closed, "
+            "have handles or several components, or be sampled too thinly); let the topology be "
+            "chosen automatically, or reconstruct a part of the surface"};
   return disc;
 }
 

@@ -41,14 +41,6 @@ struct DiscLimits
   double largest_fold_share = 0.03;
 };
 
-struct ParameterizationSettings
-{
-  Weighting weighting = Weighting::MEAN_VALUE;
-  DomainOptions domain;
-  SolverOptions solver;
-  bool link_points = true; ///< link isolated points so that all are connected with the loop
-};
-
 /// Parameters of the points in the plane.
 struct Parameterization
 {
@@ -80,10 +72,7 @@ struct Reachability
 /// theirs, is linked to the nearest of them (DiscLimits::links_per_point), and the search continues
 /// from it. All points at the edge of an unconnected set are linked in one round: with a single
 /// link, it would shrink to a point. The rest belongs to another component. O(entries).
-/// \param neighbors rows of the linear system
-/// \param nearest   nearest neighbours of each point, not filtered
-/// \param positions per point
-/// \param loop      points of the loop
+/// \param nearest nearest neighbours of each point, not filtered
 Reachability
 reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
            const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
@@ -91,24 +80,37 @@ reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
 
 /// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system
 /// (TW 385, equations (1) to (3)). Runs through the stages WEIGHTS and SOLVE.
-/// \param positions per point
 /// \param nearest   nearest neighbours, to which points that are not connected with the loop are
 ///                  linked
 /// \param stars     with their offsets; freed as soon as there are weights
-/// \param loop      boundary points in order, at least 3
 /// \throws std::bad_alloc
 Parameterization
 parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
-              const std::vector<Index>& loop, const ParameterizationSettings& settings,
-              const RunContext& run, const DiscLimits& limits = {});
+              const std::vector<Index>& loop, const DiscOptions& options, const RunContext& run,
+              const DiscLimits& limits = {});
+
+/// Collapsed regions are laid out again.
+///
+/// On a tube of length L and radius R parameters shrink like exp (-L / R). From an L / R of about
+/// 35 on, points coincide in the plane. Here the loop of every collapsed region is laid on a circle
+/// of its own, the region is parameterized and triangulated alone, and its triangles are replaced.
+/// Regions that collapse within these follow recursively. One level covers an L / R of about 14. A
+/// region that cannot be parameterized stays. This goes beyond TW 385.
+///
+/// The mesh stays a disc with the same boundary. One pass over it if nothing has collapsed;
+/// otherwise each level costs as much as a reconstruction of its points.
+/// \return levels of the recursion; 0: no region was laid out again
+std::size_t
+layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
+                        const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
+                        const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& loop,
+                        const StarSettings& star_settings, const DiscOptions& options,
+                        const RunContext& run, const DiscLimits& limits = {});
 
 struct DiscSettings
 {
-  Neighborhood neighborhood = Neighborhood::NEAREST_DELAUNAY;
-  StarSettings stars; ///< for new stars
-  ParameterizationSettings parameterization;
-  bool flip_edges = true;    ///< flip edges in space at the end, and repair folds
-  bool as_published = false; ///< nothing beyond TW 385
+  const Options& options; ///< with as_published: nothing beyond TW 385
+  StarSettings stars;     ///< for new stars
   DiscLimits limits{};
   FinishLimits finish{};
   FacingHints facing{};
@@ -129,8 +131,8 @@ struct Disc
 /// collapsed regions are laid out again, edges are flipped in space, and folds are repaired. Stages
 /// WEIGHTS, SOLVE, DELAUNAY and FLIPS.
 /// \param geometry its stars, which need their offsets, are consumed, except their normals
-/// \param boundary checked (see checkBoundary ()), without a problem
-/// \return with the problem of the parameterization, or NOT_A_DISC if too many edges are folded
+/// \param boundary checked (see checkBoundary ())
+/// \return with the problem of the boundary or of the parameterization, or NOT_A_DISC if too many edges are folded
 Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run);

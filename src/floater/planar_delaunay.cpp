@@ -66,18 +66,32 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
   return outside;
 }
 
-// Numbers the faces inside of the loop. Outside are faces at hull edges that are not loop edges,
-// and so on inwards.
-// \return number of faces
-Index
-numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
+constexpr Index OUTSIDE = NONE;
+
+// Triangulates the finite points that are not left out. Marks the infinite faces as outside.
+// \return number of these points; fewer may be vertices, where some coincide
+std::size_t
+triangulate (const std::vector<Eigen::Vector2d>& uv, const std::vector<std::uint8_t>& is_left_out,
+             Delaunay& delaunay)
+{
+  std::vector<std::pair<Kernel::Point_2, Index>> sites;
+  sites.reserve (uv.size ());
+  for (Index p = 0; p < uv.size (); ++p)
+    if (uv[p].allFinite () && is_left_out[p] == 0)
+      sites.emplace_back (toPoint (uv[p]), p);
+  delaunay.insert (sites.begin (), sites.end ());
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    face->info () = delaunay.is_infinite (face) ? OUTSIDE : 0;
+  return sites.size ();
+}
+
+// Marks the faces at hull edges that are not loop edges as outside, and so on inwards.
+void
+markOutside (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
 {
   std::vector<Index> successor (points, NONE);
   for (std::size_t i = 0; i < loop.size (); ++i)
     successor[loop[i]] = loop[(i + 1) % loop.size ()];
-  constexpr Index OUTSIDE = NONE;
-  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
-    face->info () = delaunay.is_infinite (face) ? OUTSIDE : 0;
   std::vector<Delaunay::Face_handle> outside;
   for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
     if (face->info () == OUTSIDE)
@@ -97,26 +111,25 @@ numberFaces (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t poi
       outside.push_back (inner);
     }
   }
+}
+
+// Makes a mesh of the faces that are not outside.
+TriangleMesh
+makeMesh (Delaunay& delaunay, std::size_t points)
+{
+  TriangleMesh mesh;
+  mesh.triangle_of.assign (points, NONE);
+  if (delaunay.dimension () < 2)
+    return mesh;
   Index count = 0;
   for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face)
     if (face->info () != OUTSIDE)
       face->info () = count++;
-  return count;
-}
-
-// Makes a mesh of the numbered faces.
-TriangleMesh
-makeMesh (const Delaunay& delaunay, Index count, std::size_t points)
-{
-  TriangleMesh mesh;
-  mesh.triangle_of.assign (points, NONE);
   mesh.triangles.resize (count);
   mesh.neighbors.resize (count);
-  if (count == 0)
-    return mesh;
   for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face) {
     const Index t = face->info ();
-    if (t == NONE)
+    if (t == OUTSIDE)
       continue;
     for (int i = 0; i < 3; ++i) {
       const auto side = static_cast<std::size_t> (i);
@@ -133,16 +146,10 @@ makeMesh (const Delaunay& delaunay, Index count, std::size_t points)
 TriangleMesh
 triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
 {
-  std::vector<std::pair<Kernel::Point_2, Index>> sites;
-  sites.reserve (uv.size ());
-  const std::vector<std::uint8_t> outside = outsideLoop (uv, loop);
-  for (Index p = 0; p < uv.size (); ++p)
-    if (uv[p].allFinite () && outside[p] == 0)
-      sites.emplace_back (toPoint (uv[p]), p);
   Delaunay delaunay;
-  delaunay.insert (sites.begin (), sites.end ());
+  const std::size_t sites = triangulate (uv, outsideLoop (uv, loop), delaunay);
   // Of coinciding points, CGAL keeps any index; a loop point must be the vertex.
-  if (delaunay.number_of_vertices () < sites.size ())
+  if (delaunay.number_of_vertices () < sites)
     for (Index p : loop) {
       Delaunay::Locate_type type{};
       int side = 0;
@@ -150,29 +157,17 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
       if (type == Delaunay::VERTEX)
         face->vertex (side)->info () = p;
     }
-  std::vector<std::pair<Kernel::Point_2, Index>> ().swap (sites);
-
-  if (delaunay.dimension () < 2)
-    return makeMesh (delaunay, 0, uv.size ());
-  return makeMesh (delaunay, numberFaces (delaunay, loop, uv.size ()), uv.size ());
+  if (delaunay.dimension () == 2)
+    markOutside (delaunay, loop, uv.size ());
+  return makeMesh (delaunay, uv.size ());
 }
 
 TriangleMesh
 triangulateHull (const std::vector<Eigen::Vector2d>& uv)
 {
-  std::vector<std::pair<Kernel::Point_2, Index>> sites;
-  sites.reserve (uv.size ());
-  for (Index p = 0; p < uv.size (); ++p)
-    if (uv[p].allFinite ())
-      sites.emplace_back (toPoint (uv[p]), p);
   Delaunay delaunay;
-  delaunay.insert (sites.begin (), sites.end ());
-  if (delaunay.dimension () < 2)
-    return makeMesh (delaunay, 0, uv.size ());
-  Index count = 0;
-  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
-    face->info () = delaunay.is_infinite (face) ? NONE : count++;
-  return makeMesh (delaunay, count, uv.size ());
+  triangulate (uv, std::vector<std::uint8_t> (uv.size (), 0), delaunay);
+  return makeMesh (delaunay, uv.size ());
 }
 
 bool

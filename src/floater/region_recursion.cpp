@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/region_recursion.h"
-
+#include "core/geometry.h"
 #include "core/order_statistics.h"
+#include "floater/floater_method.h"
 #include "floater/planar_delaunay.h"
 
 #include <algorithm>
@@ -39,16 +39,6 @@ sqrLengths (const std::vector<Vector>& at, const Triangle& t)
 {
   return (at[t[1]] - at[t[0]]).squaredNorm () + (at[t[2]] - at[t[1]]).squaredNorm () +
          (at[t[0]] - at[t[2]]).squaredNorm ();
-}
-
-template <typename Vector>
-double
-perimeter (const std::vector<Vector>& at, const std::vector<Index>& loop)
-{
-  double sum = 0.0;
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    sum += (at[loop[(i + 1) % loop.size ()]] - at[loop[i]]).norm ();
-  return sum;
 }
 
 // Marks the corners of collapsed triangles, except for points of the loop.
@@ -197,7 +187,7 @@ struct Surroundings
   const CsrLists& nearest;
   const std::vector<Eigen::Vector3f>& normals;
   const StarSettings& stars;
-  ParameterizationSettings settings;
+  DiscOptions options; // on a circle
   RunContext run;
   const DiscLimits& limits;
   std::vector<Index> number; // of each point in the current disc; NONE: not in it
@@ -215,9 +205,9 @@ layOut (const CollapsedRegion& region, const PlaneDisc& around, Surroundings& wi
     const Index in_cloud = around.points[p];
     with.number[in_cloud] = static_cast<Index> (disc.points.size ());
     disc.points.push_back (in_cloud);
-    disc.positions.push_back (with.positions[in_cloud]);
     normals.push_back (with.normals[in_cloud]);
   }
+  disc.positions = positionsOf (with.positions, disc.points);
   for (const Index p : region.loop)
     disc.loop.push_back (with.number[around.points[p]]);
   CsrLists nearest;
@@ -232,7 +222,7 @@ layOut (const CollapsedRegion& region, const PlaneDisc& around, Surroundings& wi
     with.number[p] = NONE;
   Parameterization parameterization = parameterize (
       disc.positions, nearest, makeStars (disc.positions, nearest, normals, with.stars, with.run),
-      disc.loop, with.settings, with.run, with.limits);
+      disc.loop, with.options, with.run, with.limits);
   if (parameterization.problem)
     return disc;
   disc.uv = std::move (parameterization.uv);
@@ -248,14 +238,14 @@ std::size_t
 layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
                         const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
                         const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& loop,
-                        const StarSettings& star_settings, const ParameterizationSettings& settings,
+                        const StarSettings& star_settings, const DiscOptions& options,
                         const RunContext& run, const DiscLimits& limits)
 {
   if (markDeepPoints (mesh, uv, positions, loop, run, limits).empty ())
     return 0;
   const RunContext within = run.withinStage ();
-  Surroundings with{positions, nearest, normals, star_settings, settings, within, limits, {}};
-  with.settings.domain.curve = Domain::CIRCLE;
+  Surroundings with{positions, nearest, normals, star_settings, options, within, limits, {}};
+  with.options.domain.curve = Domain::CIRCLE;
   with.number.assign (positions.size (), NONE);
   std::vector<PlaneDisc> waiting (1);
   waiting[0] = {std::vector<Index> (positions.size ()), loop, positions, uv, mesh};

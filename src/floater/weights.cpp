@@ -29,7 +29,6 @@ struct LocalStar
   bool closed = false;
 
   std::size_t size () const { return directions.size (); }
-  std::size_t next (std::size_t i) const { return i + 1 == size () ? 0 : i + 1; }
   // Twice the signed area of the triangle of the centre and two neighbours.
   double area (std::size_t i, std::size_t j) const
   {
@@ -70,13 +69,6 @@ halfTangent (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return 1.0 - cosine < LARGEST_TANGENT * sine ? (1.0 - cosine) / sine : LARGEST_TANGENT;
 }
 
-void
-inverseDistance (const LocalStar& star, double* weights)
-{
-  for (std::size_t i = 0; i < star.size (); ++i)
-    weights[i] = 1.0 / star.lengths[i];
-}
-
 // Gives each of several neighbours in one direction the mean of their weights. Only their sum
 // matters to reproduce the centre; rounding would give it to some of them and disconnect the
 // others.
@@ -110,7 +102,7 @@ meanValue (const LocalStar& star, double* weights)
   std::fill (weights, weights + count, 0.0);
   bool shared_direction = false;
   for (std::size_t i = 0; i < (star.closed ? count : count - 1); ++i) {
-    const std::size_t j = star.next (i);
+    const std::size_t j = i + 1 == count ? 0 : i + 1;
     const double tangent = halfTangent (star.directions[i], star.directions[j]);
     shared_direction = shared_direction || tangent < SAME_DIRECTION;
     weights[i] += tangent;
@@ -195,24 +187,15 @@ normalize (double* weights, std::size_t count)
 void
 weighStar (const LocalStar& star, Weighting weighting, double* weights)
 {
-  switch (weighting) {
-  case Weighting::UNIFORM:
+  if (weighting == Weighting::UNIFORM)
     std::fill (weights, weights + star.size (), 1.0);
-    break;
-  case Weighting::INVERSE_DISTANCE:
-    inverseDistance (star, weights);
-    break;
-  case Weighting::SHAPE_PRESERVING:
-    if (star.closed && star.size () >= 3) {
-      shapePreserving (star, weights);
-      break;
-    }
+  else if (weighting == Weighting::INVERSE_DISTANCE)
+    std::transform (star.lengths.begin (), star.lengths.end (), weights,
+                    [] (double length) { return 1.0 / length; });
+  else if (weighting == Weighting::SHAPE_PRESERVING && star.closed && star.size () >= 3)
+    shapePreserving (star, weights);
+  else
     meanValue (star, weights);
-    break;
-  case Weighting::MEAN_VALUE:
-    meanValue (star, weights);
-    break;
-  }
   normalize (weights, star.size ());
 }
 

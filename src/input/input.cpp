@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "input/input.h"
 
+#include "core/order_statistics.h"
 #include "core/types.h"
 #include "options/check_options.h"
 #include "options/stage_limits.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -72,27 +74,6 @@ checkFacing (const Input& input, const Options& options)
 }
 
 namespace {
-// Removes the points whose rows are flagged. Returns their cloud indices, ascending.
-std::vector<Index>
-takeOut (Input& input, const std::vector<std::uint8_t>& is_taken)
-{
-  std::vector<Index> taken;
-  std::size_t kept = 0;
-  for (std::size_t row = 0; row < is_taken.size (); ++row) {
-    if (is_taken[row] != 0) {
-      taken.push_back (input.cloud_index[row]);
-      continue;
-    }
-    input.positions[kept] = input.positions[row];
-    input.cloud_index[kept] = input.cloud_index[row];
-    ++kept;
-  }
-  input.positions.resize (kept);
-  input.cloud_index.resize (kept);
-  std::sort (taken.begin (), taken.end ());
-  return taken;
-}
-
 // Makes them points that are not finite.
 template <typename MayGo>
 void
@@ -139,15 +120,20 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};
   const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
-  std::vector<std::uint8_t> is_taken (input.positions.size (), 0);
+  std::vector<Index> rows, outliers;
   for (const Index row : found.unbearable) {
     if (!are_few || !mayGo (row))
       return tooFarAway (input.cloud_index[row], input.positions[row]);
-    is_taken[row] = 1;
+    rows.push_back (row);
   }
-  for (const Index row : found.isolated)
-    is_taken[row] = mayGo (row) ? 1 : 0;
-  reportGrossOutliers (takeOut (input, is_taken), report);
+  std::copy_if (found.isolated.begin (), found.isolated.end (), std::back_inserter (rows), mayGo);
+  std::sort (rows.begin (), rows.end ());
+  for (const Index row : rows)
+    outliers.push_back (input.cloud_index[row]);
+  std::sort (outliers.begin (), outliers.end ());
+  eraseRows (input.positions, rows);
+  eraseRows (input.cloud_index, rows);
+  reportOutliers (outliers, FindingId::GROSS_OUTLIERS, report);
   return {};
 }
 

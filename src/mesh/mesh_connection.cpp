@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Neighbours from triangles.
-#include "core/index_limit.h"
+#include "core/csr_lists.h"
 #include "core/parallel.h"
 #include "mesh/triangle_mesh.h"
 #include "mesh/vertex_stars.h"

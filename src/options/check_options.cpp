@@ -5,8 +5,11 @@
 #include "floater/solvers/solver.h"
 #include "options/option_rows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -105,32 +108,37 @@ numberText (double number)
 
 // What each method accepts, and what a hole policy needs.
 Problem
-checkTopology (const Options& options)
+checkTogether (const Options& options)
 {
-  if (options.holes.policy == HolePolicy::BY_SIZE && options.holes.largest_hole == 0.0)
-    return refused ("holes", "by size need the size of the largest hole to fill");
-  if (options.topology == Topology::DISC && options.holes.policy != HolePolicy::AUTO &&
-      options.holes.policy != HolePolicy::KEEP_LARGEST)
-    return refused (
-        "holes", "of a disc must be auto or keep-largest: it has one boundary loop and no holes; "
-                 "choose another topology");
-  if (options.topology == Topology::SURFACE && !options.disc.boundary.loop.empty ())
-    return refused ("topology", "must be disc or auto if a boundary loop is given");
-  if (options.topology == Topology::SURFACE && options.disc.as_published)
-    return refused ("topology", "must be disc or auto: the method of TW 385 makes discs only");
-  return {};
-}
-
-Problem
-checkView (const Options& options)
-{
-  if (options.view.use != ViewUse::GIVEN)
-    return {};
-  for (const double coordinate : options.view.viewpoint)
-    if (!std::isfinite (coordinate))
-      return refused ("viewpoint", "must have finite coordinates");
-  if (options.topology == Topology::DISC || !options.disc.boundary.loop.empty ())
-    return refused ("viewpoint", "is of no use for a disc, which is laid out without it");
+  const HolePolicy holes = options.holes.policy;
+  const auto& viewpoint = options.view.viewpoint;
+  const bool is_surface = options.topology == Topology::SURFACE;
+  const bool is_loop_given = !options.disc.boundary.loop.empty ();
+  const bool is_view_given = options.view.use == ViewUse::GIVEN;
+  struct Rule
+  {
+    bool is_broken;
+    const char *option, *why;
+  };
+  const Rule rules[] = {
+      {holes == HolePolicy::BY_SIZE && options.holes.largest_hole == 0.0, "holes",
+       "by size need the size of the largest hole to fill"},
+      {options.topology == Topology::DISC && holes != HolePolicy::AUTO &&
+           holes != HolePolicy::KEEP_LARGEST,
+       "holes",
+       "of a disc must be auto or keep-largest: it has one boundary loop and no holes; choose "
+       "another topology"},
+      {is_surface && is_loop_given, "topology", "must be disc or auto if a boundary loop is given"},
+      {is_surface && options.disc.as_published, "topology",
+       "must be disc or auto: the method of TW 385 makes discs only"},
+      {is_view_given && !std::all_of (viewpoint.begin (), viewpoint.end (),
+                                      [] (double x) { return std::isfinite (x); }),
+       "viewpoint", "must have finite coordinates"},
+      {is_view_given && (options.topology == Topology::DISC || is_loop_given), "viewpoint",
+       "is of no use for a disc, which is laid out without it"}};
+  for (const Rule& rule : rules)
+    if (rule.is_broken)
+      return refused (rule.option, rule.why);
   return {};
 }
 
@@ -154,9 +162,7 @@ checkOptions (const Options& options)
   visitOptions (options, ranges);
   if (ranges.problem)
     return ranges.problem;
-  if (Problem problem = checkTopology (options))
-    return problem;
-  if (Problem problem = checkView (options))
+  if (Problem problem = checkTogether (options))
     return problem;
   if (Problem problem = checkSolver (options.disc.solver.method))
     return problem;
@@ -166,70 +172,55 @@ checkOptions (const Options& options)
 }
 
 namespace {
-bool
-areInBalls (Neighborhood kind)
-{
-  return kind == Neighborhood::BALL || kind == Neighborhood::BALL_DELAUNAY;
-}
-
-// Why options that only discs read have no effect, or nullptr.
-const char*
-reasonOfDisc (UsedFor use, const Options& options, const Report& report)
-{
-  const DiscOptions& disc = options.disc;
-  const Solver solver = disc.solver.method;
-  if (report.topology != Topology::DISC)
-    return "the mesh was not made as a disc";
-  const bool is_of_loop = use == UsedFor::LOOP || use == UsedFor::TWO_SEGMENTS;
-  if (is_of_loop && !disc.boundary.loop.empty ())
-    return "the boundary loop is given";
-  if (use == UsedFor::TWO_SEGMENTS && disc.boundary.method != BoundaryMethod::TWO_SEGMENTS)
-    return "only the boundary method two-segments reads it";
-  if (use == UsedFor::POLYGON && disc.domain.curve != Domain::POLYGON)
-    return "the domain is no polygon";
-  if (use == UsedFor::ILUT && solver != Solver::BICGSTAB_ILUT)
-    return "only the solver bicgstab-ilut reads it";
-  if (use == UsedFor::ITERATIVE && solver != Solver::BICGSTAB_ILUT &&
-      solver != Solver::GAUSS_SEIDEL)
-    return "the solver is direct";
-  return nullptr;
-}
-
+// Why an option has no effect, or nullptr.
 const char*
 reasonOf (UsedFor use, const Options& options, const Report& report)
 {
-  const bool in_balls = areInBalls (options.neighbors.kind);
-  switch (use) {
-  case UsedFor::ALL:
-    return nullptr;
-  case UsedFor::KEEP_COUNT:
-    return options.holes.policy == HolePolicy::KEEP_COUNT
-               ? nullptr
-               : "only the hole policy keep-count reads it";
-  case UsedFor::BY_SIZE:
-    return options.holes.policy == HolePolicy::BY_SIZE ? nullptr
-                                                       : "only the hole policy by-size reads it";
-  case UsedFor::STARS:
-  case UsedFor::NEIGHBORHOOD:
-  case UsedFor::NEAREST:
-  case UsedFor::BALLS:
-  case UsedFor::SCATTER:
-    if (use == UsedFor::SCATTER && options.disc.as_published)
-      return "the method of TW 385 keeps all points";
-    if (report.is_view)
-      return "a scan is connected as its sensor saw it, without neighbours";
-    if (use == UsedFor::NEAREST && in_balls)
-      return "neighbours are searched in balls";
-    if (use == UsedFor::BALLS && !in_balls)
-      return "neighbours are not searched in balls";
-    // A surface uses Delaunay stars of either.
-    if (use == UsedFor::NEIGHBORHOOD && report.topology == Topology::SURFACE &&
-        options.neighbors.kind == Neighborhood::NEAREST)
-      return "the mesh was not made as a disc";
-    return nullptr;
-  default:
-    return reasonOfDisc (use, options, report);
-  }
+  const BoundaryOptions& boundary = options.disc.boundary;
+  const Neighborhood kind = options.neighbors.kind;
+  const Solver solver = options.disc.solver.method;
+  const bool is_disc = report.topology == Topology::DISC;
+  const bool in_balls = kind == Neighborhood::BALL || kind == Neighborhood::BALL_DELAUNAY;
+  const auto isOneOf = [use] (std::initializer_list<UsedFor> uses) {
+    return std::find (uses.begin (), uses.end (), use) != uses.end ();
+  };
+  struct Reason
+  {
+    bool holds;
+    const char* text;
+  };
+  const Reason reasons[] = {
+      {use == UsedFor::KEEP_COUNT && options.holes.policy != HolePolicy::KEEP_COUNT,
+       "only the hole policy keep-count reads it"},
+      {use == UsedFor::BY_SIZE && options.holes.policy != HolePolicy::BY_SIZE,
+       "only the hole policy by-size reads it"},
+      {use == UsedFor::SCATTER && options.disc.as_published,
+       "the method of TW 385 keeps all points"},
+      {report.is_view && isOneOf ({UsedFor::STARS, UsedFor::NEIGHBORHOOD, UsedFor::NEAREST,
+                                   UsedFor::BALLS, UsedFor::SCATTER}),
+       "a scan is connected as its sensor saw it, without neighbours"},
+      {use == UsedFor::NEAREST && in_balls, "neighbours are searched in balls"},
+      {use == UsedFor::BALLS && !in_balls, "neighbours are not searched in balls"},
+      // A surface uses Delaunay stars of either.
+      {!is_disc && (isOneOf ({UsedFor::DISC, UsedFor::LOOP, UsedFor::TWO_SEGMENTS, UsedFor::POLYGON,
+                              UsedFor::ITERATIVE, UsedFor::ILUT}) ||
+                    (use == UsedFor::NEIGHBORHOOD && kind == Neighborhood::NEAREST)),
+       "the mesh was not made as a disc"},
+      {isOneOf ({UsedFor::LOOP, UsedFor::TWO_SEGMENTS}) && !boundary.loop.empty (),
+       "the boundary loop is given"},
+      {use == UsedFor::TWO_SEGMENTS && boundary.method != BoundaryMethod::TWO_SEGMENTS,
+       "only the boundary method two-segments reads it"},
+      {use == UsedFor::POLYGON && options.disc.domain.curve != Domain::POLYGON,
+       "the domain is no polygon"},
+      {use == UsedFor::ILUT && solver != Solver::BICGSTAB_ILUT,
+       "only the solver bicgstab-ilut reads it"},
+      {use == UsedFor::ITERATIVE && solver != Solver::BICGSTAB_ILUT &&
+           solver != Solver::GAUSS_SEIDEL,
+       "the solver is direct"},
+  };
+  const auto first = std::find_if (std::begin (reasons), std::end (reasons),
+                                   [] (const Reason& reason) { return reason.holds; });
+  return first != std::end (reasons) ? first->text : nullptr;
 }
 
 } // namespace

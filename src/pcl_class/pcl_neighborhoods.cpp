@@ -11,58 +11,50 @@
 #include <limits>
 
 namespace pcl::floater {
-struct PclNeighborhoods::Cloud
-{
-  explicit Cloud (const Input& input)
-      : points (pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>> ()),
-        finite (pcl::make_shared<pcl::Indices> ()),
-        search (pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> (), points)
-  {
-    constexpr float NONE = std::numeric_limits<float>::quiet_NaN ();
-    points->resize (input.cloud_size, pcl::PointXYZ (NONE, NONE, NONE));
-    points->is_dense = false;
-    for (std::size_t row = 0; row < input.positions.size (); ++row) {
-      const Eigen::Vector3f position = input.positions[row].cast<float> ();
-      (*points)[input.cloud_index[row]] =
-          pcl::PointXYZ (position.x (), position.y (), position.z ());
-      if (position.allFinite ())
-        finite->push_back (static_cast<pcl::index_t> (input.cloud_index[row]));
-    }
-  }
+namespace {
+constexpr float NAN_32 = std::numeric_limits<float>::quiet_NaN ();
 
-  pcl::PointCloud<pcl::PointXYZ>::Ptr points;
-  pcl::IndicesPtr finite;
-  SearchMethod<pcl::PointXYZ> search;
-};
-
-PclNeighborhoods::PclNeighborhoods (const Input& input) : cloud_ (std::make_unique<Cloud> (input))
+// The whole cloud; points that are not selected are not finite.
+pcl::PointCloud<pcl::PointXYZ>::Ptr
+cloudOf (const Input& input)
 {
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>> ();
+  cloud->resize (input.cloud_size, pcl::PointXYZ (NAN_32, NAN_32, NAN_32));
+  cloud->is_dense = false;
+  for (std::size_t row = 0; row < input.positions.size (); ++row)
+    (*cloud)[input.cloud_index[row]].getVector3fMap () = input.positions[row].cast<float> ();
+  return cloud;
 }
 
-PclNeighborhoods::~PclNeighborhoods () = default;
+} // namespace
 
-NeighborSearch&
-PclNeighborhoods::search ()
+std::unique_ptr<NeighborSearch>
+makePclSearch (const Input& input)
 {
-  return cloud_->search;
+  return std::make_unique<SearchMethod<pcl::PointXYZ>> (
+      pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> (), cloudOf (input));
 }
 
 std::vector<Eigen::Vector3f>
-PclNeighborhoods::normals (int k) const
+estimateNormals (const Input& input, int k)
 {
-  constexpr float NONE = std::numeric_limits<float>::quiet_NaN ();
-  std::vector<Eigen::Vector3f> all (cloud_->points->size (), Eigen::Vector3f::Constant (NONE));
-  if (cloud_->finite->empty ())
+  const auto cloud = cloudOf (input);
+  const auto finite = pcl::make_shared<pcl::Indices> ();
+  for (std::size_t p = 0; p < cloud->size (); ++p)
+    if (pcl::isFinite ((*cloud)[p]))
+      finite->push_back (static_cast<pcl::index_t> (p));
+  std::vector<Eigen::Vector3f> all (cloud->size (), Eigen::Vector3f::Constant (NAN_32));
+  if (finite->empty ())
     return all;
   pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-  estimation.setInputCloud (cloud_->points);
-  estimation.setIndices (cloud_->finite);
+  estimation.setInputCloud (cloud);
+  estimation.setIndices (finite);
   estimation.setSearchMethod (pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> ());
   estimation.setKSearch (k + 1); // PCL counts the point itself
   pcl::PointCloud<pcl::Normal> estimated;
   estimation.compute (estimated);
   for (std::size_t i = 0; i < estimated.size (); ++i)
-    all[static_cast<std::size_t> ((*cloud_->finite)[i])] = estimated[i].getNormalVector3fMap ();
+    all[static_cast<std::size_t> ((*finite)[i])] = estimated[i].getNormalVector3fMap ();
   return all;
 }
 

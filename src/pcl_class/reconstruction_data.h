@@ -19,10 +19,17 @@ struct ReconstructionState::Data
   double largest_stretch = TextureOptions ().largest_stretch;
   Report report;
   TextureCoordinates texture;
-  std::vector<int> parts;          // of each point; empty if there is no mesh
-  std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
-  std::vector<Eigen::Vector3f>
-      normals; // of each point; empty if there is no mesh, or not asked for
+  std::vector<int> parts;               // of each point; empty if there is no mesh
+  std::vector<std::int8_t> states;      // PointState of each point; empty if there is no mesh
+  std::vector<Eigen::Vector3f> normals; // of each point; empty if not asked for
+
+  void forgetMesh ()
+  {
+    texture = {};
+    parts.clear ();
+    states.clear ();
+    normals.clear ();
+  }
 };
 
 } // namespace pcl::floater

@@ -42,23 +42,8 @@ componentsOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::s
   return {numbers.begin (), numbers.end ()}; // NONE becomes -1
 }
 
-// Whether each of `size` points is on a boundary loop of a consistently oriented manifold.
-std::vector<bool>
-boundaryOf (const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t size)
-{
-  // Each triangle at a point steps from one neighbour to the next. The steps of an open fan add up
-  // to last minus first neighbour, the steps of a closed one to 0.
-  std::vector<std::uint32_t> way (size, 0);
-  for (const std::array<std::uint32_t, 3>& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      way[t[i]] += t[(i + 2) % 3] - t[(i + 1) % 3];
-  std::vector<bool> is_boundary (size);
-  for (std::size_t p = 0; p < size; ++p)
-    is_boundary[p] = way[p] != 0;
-  return is_boundary;
-}
-
 // State of each point.
+// \param triangles a consistently oriented manifold
 // \param components from componentsOf ()
 // \param is_selected of each point: was to be reconstructed
 std::vector<std::int8_t>
@@ -68,11 +53,16 @@ statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
 {
   using State = ReconstructionState::PointState;
   const std::size_t size = is_selected.size ();
-  const std::vector<bool> is_boundary = boundaryOf (triangles, size);
+  // Each triangle at a point steps from one neighbour to the next. The steps of an open fan add up
+  // to last minus first neighbour, the steps of a closed one to 0.
+  std::vector<std::uint32_t> way (size, 0);
+  for (const std::array<std::uint32_t, 3>& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      way[t[i]] += t[(i + 2) % 3] - t[(i + 1) % 3];
   std::vector<std::int8_t> states (size, State::NONE);
   for (std::size_t p = 0; p < size; ++p)
     if (components[p] >= 0)
-      states[p] = is_boundary[p] ? State::BOUNDARY : State::COMPLETED;
+      states[p] = way[p] != 0 ? State::BOUNDARY : State::COMPLETED;
     else if (is_selected[p])
       states[p] = State::FREE;
   for (const std::uint32_t p : non_finite)
@@ -80,59 +70,43 @@ statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
   return states;
 }
 
-// The texture coordinates, as the second half of a run that asks for them.
-class TexturePart
+// Options of the texture coordinates, which are the second half of a run: scales the progress of
+// the reconstruction to the first half.
+TextureOptions
+textureOptions (double largest_stretch, Options& options)
 {
-public:
-  // Copies the positions, and scales the progress of the reconstruction to the first half.
-  TexturePart (bool is_wanted, double largest_stretch, const Input& input, Options& options)
-      : is_wanted_ (is_wanted)
-  {
-    if (!is_wanted)
-      return;
-    positions_.assign (input.cloud_size,
-                       Eigen::Vector3d::Constant (std::numeric_limits<double>::quiet_NaN ()));
-    for (std::size_t i = 0; i < input.positions.size (); ++i)
-      positions_[input.cloud_index[i]] = input.positions[i];
-    texture_options_.largest_stretch = largest_stretch;
-    texture_options_.cancelled_callback = options.cancelled_callback;
-    const std::function<void (double)> tell = options.progress_callback;
-    if (!tell)
-      return;
-    constexpr double FIRST_PART = 0.5;
+  constexpr double FIRST_PART = 0.5;
+  TextureOptions texture;
+  texture.largest_stretch = largest_stretch;
+  texture.threads = options.threads;
+  texture.cancelled_callback = options.cancelled_callback;
+  if (const std::function<void (double)> tell = options.progress_callback) {
     options.progress_callback = [tell] (double done) { tell (FIRST_PART * done); };
-    texture_options_.progress_callback = [tell] (double done) {
+    texture.progress_callback = [tell] (double done) {
       tell (FIRST_PART + (1.0 - FIRST_PART) * done);
     };
   }
+  return texture;
+}
 
-  // Its failure becomes the failure of the run.
-  TextureCoordinates compute (int threads, Result& result)
-  {
-    Report& report = result.report;
-    if (!is_wanted_ || report.status != RunStatus::SUCCESS)
-      return {};
-    texture_options_.threads = threads;
-    texture_options_.whole_discs = report.topology == Topology::DISC;
-    TextureCoordinates texture =
-        computeTextureCoordinates (positions_, result.triangles, texture_options_);
-    if (texture.status != RunStatus::SUCCESS) {
-      result.triangles.clear ();
-      report.status = texture.status;
-      report.message = "texture coordinates: " + texture.message;
-    }
-    else if (texture.flipped > 0)
-      report.warnings.push_back (std::to_string (texture.flipped) +
-                                 " triangles are upside down in the texture: they are too small "
-                                 "beside the mesh for 32 bits");
-    return texture;
+// The texture coordinates of a mesh. Their failure becomes the failure of the run.
+TextureCoordinates
+computeTexture (const std::vector<Eigen::Vector3d>& positions, const TextureOptions& options,
+                Result& result)
+{
+  Report& report = result.report;
+  TextureCoordinates texture = computeTextureCoordinates (positions, result.triangles, options);
+  if (texture.status != RunStatus::SUCCESS) {
+    result.triangles.clear ();
+    report.status = texture.status;
+    report.message = "texture coordinates: " + texture.message;
   }
-
-private:
-  bool is_wanted_;
-  std::vector<Eigen::Vector3d> positions_; // of the whole cloud
-  TextureOptions texture_options_;
-};
+  else if (texture.flipped > 0)
+    report.warnings.push_back (std::to_string (texture.flipped) +
+                               " triangles are upside down in the texture: they are too small "
+                               "beside the mesh for 32 bits");
+  return texture;
+}
 
 // PCL has TextureMesh::tex_coord_indices from 1.12.1 on.
 template <typename Mesh>
@@ -299,10 +273,7 @@ void
 ReconstructionState::beginRun ()
 {
   data_->report = Report ();
-  data_->texture = TextureCoordinates ();
-  data_->parts.clear ();
-  data_->states.clear ();
-  data_->normals.clear ();
+  data_->forgetMesh ();
 }
 
 void
@@ -315,10 +286,7 @@ ReconstructionState::fail (RunStatus status, const std::string& message)
 void
 ReconstructionState::failByException () noexcept
 {
-  data_->parts.clear ();
-  data_->states.clear ();
-  data_->normals.clear ();
-  data_->texture = TextureCoordinates ();
+  data_->forgetMesh ();
   try {
     const Problem problem = problemOfException ();
     fail (problem.status, problem.message);
@@ -342,19 +310,19 @@ ReconstructionState::checkCloud (std::size_t size, const pcl::Indices& indices)
   const std::string outside_the_cloud =
       " is outside the cloud of " + std::to_string (size) + (size == 1 ? " point" : " points");
   // Negative indices become too large by the conversion.
-  const auto is_outside = [size] (pcl::index_t index) {
-    return static_cast<std::size_t> (index) >= size;
+  const auto outsideIn = [size] (const pcl::Indices& some) {
+    return std::find_if (some.begin (), some.end (), [size] (pcl::index_t index) {
+      return static_cast<std::size_t> (index) >= size;
+    });
   };
-  const auto outside = std::find_if (indices.begin (), indices.end (), is_outside);
-  if (outside != indices.end ()) {
+  if (const auto outside = outsideIn (indices); outside != indices.end ()) {
     fail (RunStatus::INVALID_INDICES, "index " + std::to_string (*outside) + outside_the_cloud);
     return false;
   }
   const pcl::Indices& loop = data_->prescribed_loop;
-  const auto outside_in_loop = std::find_if (loop.begin (), loop.end (), is_outside);
-  if (outside_in_loop != loop.end ()) {
-    fail (RunStatus::INVALID_LOOP, "point " + std::to_string (*outside_in_loop) +
-                                       " of the given boundary loop" + outside_the_cloud);
+  if (const auto outside = outsideIn (loop); outside != loop.end ()) {
+    fail (RunStatus::INVALID_LOOP,
+          "point " + std::to_string (*outside) + " of the given boundary loop" + outside_the_cloud);
     return false;
   }
   return true;
@@ -367,29 +335,35 @@ ReconstructionState::triangulatePoints (Input&& input)
   std::vector<bool> is_selected (input.cloud_size, false);
   for (const std::uint32_t p : input.cloud_index)
     is_selected[p] = true;
-  std::unique_ptr<PclNeighborhoods> by_pcl; // TW 385 as built from PCL
+  std::unique_ptr<NeighborSearch> by_pcl; // TW 385 as built from PCL
   if (options.disc.as_published && input.search == nullptr) {
-    by_pcl = std::make_unique<PclNeighborhoods> (input);
-    input.search = &by_pcl->search ();
+    by_pcl = makePclSearch (input);
+    input.search = by_pcl.get ();
     if (input.normals.empty ())
-      input.normals = by_pcl->normals (options.neighbors.k);
+      input.normals = estimateNormals (input, options.neighbors.k);
   }
-  std::vector<Eigen::Vector3d>
-      positions; // of the whole cloud; reconstruct () consumes those of the input
-  if (data_->compute_normals) {
-    positions.resize (input.cloud_size);
+  const bool computes_normals = data_->compute_normals, computes_texture = data_->computes_texture;
+  std::vector<Eigen::Vector3d> positions; // of the whole cloud; those of the input are consumed
+  if (computes_normals || computes_texture) {
+    positions.assign (input.cloud_size,
+                      Eigen::Vector3d::Constant (std::numeric_limits<double>::quiet_NaN ()));
     for (std::size_t i = 0; i < input.positions.size (); ++i)
       positions[input.cloud_index[i]] = input.positions[i];
   }
-  TexturePart texture (data_->computes_texture, data_->largest_stretch, input, options);
+  TextureOptions texture_options;
+  if (computes_texture)
+    texture_options = textureOptions (data_->largest_stretch, options);
   Result result = reconstruct (std::move (input), options);
-  data_->texture = texture.compute (options.threads, result);
+  if (computes_texture && result.report.status == RunStatus::SUCCESS) {
+    texture_options.whole_discs = result.report.topology == Topology::DISC;
+    data_->texture = computeTexture (positions, texture_options, result);
+  }
   data_->report = std::move (result.report);
   if (data_->report.status == RunStatus::SUCCESS) {
     data_->parts = componentsOf (result.triangles, is_selected.size ());
     data_->states =
         statesOf (result.triangles, data_->parts, is_selected, data_->report.non_finite);
-    if (!positions.empty ())
+    if (computes_normals)
       data_->normals = vertexNormals (positions, result.triangles, options.threads);
   }
   return std::move (result.triangles);

@@ -24,17 +24,15 @@ constexpr double REGULAR = 0.99;           // of the differences are multiples o
 // Coordinates of all points along one axis, in the frame of the points.
 struct AxisGrid
 {
-  bool varies = false;
   double step = 0.0;                   // 0: there is no grid
   double finest = 0.0, coarsest = 0.0; // distances of 32-bit floats of this size, in this frame
 };
 
-// Distance from a number to the next larger 32-bit float.
+// Distance from a number that is not negative to the next larger 32-bit float.
 double
-floatStep (double value)
+floatStep (double size)
 {
   constexpr double LARGEST = std::numeric_limits<float>::max ();
-  const double size = std::abs (value);
   if (size >= LARGEST)
     return std::numeric_limits<double>::infinity ();
   const auto number = static_cast<float> (size);
@@ -68,31 +66,24 @@ smallestStep (const std::vector<double>& values)
   return step;
 }
 
-bool
-isMultiple (double difference, double step)
-{
-  const double ratio = difference / step;
-  return std::abs (ratio - std::round (ratio)) <= ALIKE * std::max (1.0, ratio);
-}
-
 AxisGrid
 lookAlong (const Points& points, int axis, const RunContext& run)
 {
   const std::vector<double> values = sortedCoordinates (points, axis, 1, run);
   AxisGrid grid;
-  grid.varies = values.size () > 1;
-  if (!grid.varies)
+  if (values.size () < 2)
     return grid;
   const auto inCloud = [&] (double value) { return points.centre[axis] + points.scale * value; };
-  const double low = std::abs (inCloud (values.front ()));
-  const double high = std::abs (inCloud (values.back ()));
-  const bool has_zero = (inCloud (values.front ()) < 0.0) != (inCloud (values.back ()) < 0.0);
-  grid.finest = floatStep (has_zero ? 0.0 : std::min (low, high)) / points.scale;
-  grid.coarsest = floatStep (std::max (low, high)) / points.scale;
+  const double first = inCloud (values.front ()), last = inCloud (values.back ());
+  const double nearest = std::max ({first, -last, 0.0}); // to zero
+  grid.finest = floatStep (nearest) / points.scale;
+  grid.coarsest = floatStep (std::max (-first, last)) / points.scale;
   const double step = smallestStep (values);
   std::size_t multiples = 0;
-  for (std::size_t i = 1; i < values.size (); ++i)
-    multiples += isMultiple (values[i] - values[i - 1], step) ? 1 : 0;
+  for (std::size_t i = 1; i < values.size (); ++i) {
+    const double ratio = (values[i] - values[i - 1]) / step;
+    multiples += std::abs (ratio - std::round (ratio)) <= ALIKE * std::max (1.0, ratio) ? 1 : 0;
+  }
   if (static_cast<double> (multiples) >= REGULAR * static_cast<double> (values.size () - 1))
     grid.step = step;
   return grid;
@@ -142,7 +133,7 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
   });
   const bool is_alike_along_all =
       std::all_of (grids.begin (), grids.end (), [&grids] (const AxisGrid& grid) {
-        return grid.varies && grid.step > 0.0 && areAlike (grid.step, grids[0].step);
+        return grid.step > 0.0 && areAlike (grid.step, grids[0].step);
       });
   const auto coincident = static_cast<double> (points.duplicates.size ());
   const bool many_coincide =
@@ -150,7 +141,7 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const AxisGrid& grid = grids[axis];
     const double ratio = usual > 0.0 ? grid.step / usual : 0.0;
-    if (!grid.varies || ratio < COARSE || ratio <= found.spacings)
+    if (ratio < COARSE || ratio <= found.spacings)
       continue;
     const bool is_float = isFloatStep (grids, grid, points.scale);
     if (is_float || (is_alike_along_all && (ratio < FINER_THAN_RASTER || many_coincide)))

@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/hilbert_curve.h"
 
-#include "core/parallel.h"
-
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -81,21 +76,7 @@ makeTable ()
   return table;
 }
 
-constexpr int HILBERT_BITS = 21;          // of each coordinate
-constexpr std::size_t PART = 16384;       // points, as a mean: some 700 kB
-constexpr std::size_t MOST_PARTS = 1024;  // each keeps one page in memory, where it ends so far
-constexpr std::size_t SAMPLES = 32;       // per part, so that the largest is less than twice the
-                                          // mean
-constexpr std::uint16_t NO_PART = 0xffff; // for positions that are not finite
-
-// A position in units of cells. All axes have the same cell size: the curve follows distance, not
-// the shape of the box.
-Eigen::Array3d
-inCells (const Eigen::Vector3d& position)
-{
-  constexpr double CELLS = static_cast<double> (1U << HILBERT_BITS) - 1.0;
-  return CELLS * (position.array () + 0.5);
-}
+constexpr int HILBERT_BITS = 21; // of each coordinate
 
 std::uint64_t
 codeOf (const Eigen::Array3d& place)
@@ -113,122 +94,28 @@ codeOf (const Eigen::Array3d& place)
   return code;
 }
 
-// Position on a curve through a cell of the first curve, divided into 2^HILBERT_BITS cells a side.
-std::uint64_t
-codeInCell (const Eigen::Vector3d& position)
+// A position in units of cells. All axes have the same cell size: the curve follows distance, not
+// the shape of the box.
+Eigen::Array3d
+inCells (const Eigen::Vector3d& position)
 {
-  const Eigen::Array3d place = inCells (position);
-  return codeOf (static_cast<double> (1U << HILBERT_BITS) * (place - place.floor ()));
-}
-
-struct Record
-{
-  Record () = default;
-  Record (const Eigen::Vector3d& at, Index index)
-      : code (codeOf (inCells (at))), position (at), cloud_index (index)
-  {
-  }
-
-  // Cells first: their codes are already computed, and ties are few.
-  bool operator<(const Record& other) const
-  {
-    if (code != other.code)
-      return code < other.code;
-    if (position == other.position)
-      return cloud_index < other.cloud_index;
-    const std::uint64_t in_cell = codeInCell (position),
-                        other_in_cell = codeInCell (other.position);
-    if (in_cell != other_in_cell)
-      return in_cell < other_in_cell;
-    for (int axis = 0; axis < 3; ++axis)
-      if (position[axis] != other.position[axis])
-        return position[axis] < other.position[axis];
-    return false;
-  }
-
-  std::uint64_t code = 0;
-  Eigen::Vector3d position;
-  Index cloud_index = 0;
-};
-
-// One row out of each `stride`, at irregular distances: rows of a cloud may be rows of a grid.
-std::size_t
-sampledRow (std::size_t sample, std::size_t stride)
-{
-  std::uint64_t bits = (sample + 1) * 0x9e3779b97f4a7c15ULL; // the golden ratio, as in splitmix64
-  bits = (bits ^ bits >> 30U) * 0xbf58476d1ce4e5b9ULL;
-  bits = (bits ^ bits >> 27U) * 0x94d049bb133111ebULL;
-  return sample * stride + static_cast<std::size_t> (bits ^ bits >> 31U) % stride;
+  constexpr double CELLS = static_cast<double> (1U << HILBERT_BITS) - 1.0;
+  return CELLS * (position.array () + 0.5);
 }
 
 } // namespace
 
-CurveOrder
-sortAlongCurve (const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Index>& cloud_index, const Eigen::Vector3d& centre, double scale,
-                const RunContext& run)
+std::uint64_t
+hilbertCode (const Eigen::Vector3d& position)
 {
-  const std::size_t n = positions.size ();
-  const auto scaled = [&] (std::size_t row) -> Eigen::Vector3d {
-    return (positions[row] - centre) / scale;
-  };
+  return codeOf (inCells (position));
+}
 
-  // The first records of all parts but the first. Equal positions have equal codes, so no border
-  // separates them.
-  std::vector<Record> borders, samples;
-  const std::size_t parts = std::clamp<std::size_t> (n / PART, 1, MOST_PARTS);
-  for (std::size_t i = 0; parts > 1 && i < parts * SAMPLES; ++i)
-    if (const std::size_t row = sampledRow (i, n / (parts * SAMPLES)); positions[row].allFinite ())
-      samples.emplace_back (scaled (row), Index{0});
-  std::sort (samples.begin (), samples.end ());
-  for (std::size_t part = 1; part < parts && !samples.empty (); ++part) {
-    const Record& border = samples[part * samples.size () / parts];
-    if (borders.empty () || borders.back () < border)
-      borders.push_back (border);
-  }
-
-  std::vector<std::uint16_t> part_of (n, NO_PART);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row)
-      if (positions[row].allFinite ())
-        part_of[row] = static_cast<std::uint16_t> (
-            std::upper_bound (borders.begin (), borders.end (), Record (scaled (row), 0)) -
-            borders.begin ());
-  });
-
-  // Moves each position to its part.
-  std::vector<std::size_t> ends (borders.size () + 2, 0); // of each part, shifted by one until then
-  for (const std::uint16_t part : part_of)
-    if (part != NO_PART)
-      ++ends[part + std::size_t{1}];
-  for (std::size_t part = 1; part < ends.size (); ++part)
-    ends[part] += ends[part - 1];
-  CurveOrder order;
-  order.positions.resize (ends.back ());
-  order.cloud_index.resize (ends.back ());
-  ProgressLoop progress (run, n);
-  for (std::size_t row = 0; row < n; ++row) {
-    progress.next ();
-    if (part_of[row] == NO_PART)
-      continue;
-    const std::size_t place = ends[part_of[row]]++;
-    order.positions[place] = scaled (row);
-    order.cloud_index[place] = cloud_index[row];
-  }
-
-  parallelTasks (run, borders.size () + 1, [&] (std::size_t part) {
-    const std::size_t first = part == 0 ? 0 : ends[part - 1];
-    std::vector<Record> records;
-    records.reserve (ends[part] - first);
-    for (std::size_t i = first; i < ends[part]; ++i)
-      records.emplace_back (order.positions[i], order.cloud_index[i]);
-    std::sort (records.begin (), records.end ());
-    for (std::size_t i = first; i < ends[part]; ++i) {
-      order.positions[i] = records[i - first].position;
-      order.cloud_index[i] = records[i - first].cloud_index;
-    }
-  });
-  return order;
+std::uint64_t
+hilbertCodeInCell (const Eigen::Vector3d& position)
+{
+  const Eigen::Array3d place = inCells (position);
+  return codeOf (static_cast<double> (1U << HILBERT_BITS) * (place - place.floor ()));
 }
 
 } // namespace pcl::floater

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "points/invalid_points.h"
 
+#include "core/order_statistics.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -60,50 +62,40 @@ rangeOfMost (const PositionList& sample, const Eigen::Vector3d& place)
   std::vector<double> ranges;
   for (const Eigen::Vector3d& position : sample)
     ranges.push_back ((position - place).lpNorm<Eigen::Infinity> ());
-  const auto most = ranges.begin () + static_cast<std::ptrdiff_t> (3 * ranges.size () / 4);
-  std::nth_element (ranges.begin (), most, ranges.end ());
-  return *most;
+  return quantile (ranges, 0.75);
 }
 
-// Points by their range from a place (the largest coordinate difference), up to a limit, and the range of the next one.
-struct NearPoints
+// The pixels without a return at a place: points within a range of it (the largest coordinate
+// difference), nearest first.
+// \param fewest of them
+// \param most   the range within which most points are
+std::vector<std::pair<double, Index>>
+pixelsAt (const PositionList& positions, const Eigen::Vector3d& place, double range, double fewest,
+          double most, const InvalidPointLimits& limits)
 {
-  std::vector<std::pair<double, Index>> points; // ascending
-  double next = std::numeric_limits<double>::infinity ();
-};
-
-NearPoints
-findNearby (const PositionList& positions, const Eigen::Vector3d& place, double limit)
-{
-  NearPoints nearby;
+  std::vector<std::pair<double, Index>> points;
+  double beyond = std::numeric_limits<double>::infinity ();
   for (std::size_t row = 0; row < positions.size (); ++row) {
     if (!positions[row].allFinite ())
       continue;
-    const double range = (positions[row] - place).lpNorm<Eigen::Infinity> ();
-    if (range <= limit)
-      nearby.points.emplace_back (range, static_cast<Index> (row));
-    else if (range < nearby.next)
-      nearby.next = range;
+    const double here = (positions[row] - place).lpNorm<Eigen::Infinity> ();
+    if (here <= range)
+      points.emplace_back (here, static_cast<Index> (row));
+    else
+      beyond = std::min (beyond, here);
   }
-  std::sort (nearby.points.begin (), nearby.points.end ());
-  return nearby;
-}
-
-// How many of the nearest points are pixels without a return.
-std::size_t
-countPixels (const NearPoints& nearby, std::size_t fewest, double spacing, std::size_t size,
-             const InvalidPointLimits& limits)
-{
-  const auto& points = nearby.points;
-  for (std::size_t count = points.size (); count >= fewest; --count) {
-    const double range = points[count - 1].first;
-    const double next = count < points.size () ? points[count].first : nearby.next;
+  std::sort (points.begin (), points.end ());
+  const auto size = static_cast<double> (positions.size ());
+  const double spacing = 2.0 * most / std::sqrt (size);
+  for (; static_cast<double> (points.size ()) >= fewest; points.pop_back ()) {
+    const double last = points.back ().first;
     // A small object among far ones is larger than their spacing, or most of the cloud.
-    if (std::isfinite (next) && range <= limits.near * next && next > limits.apart * spacing &&
-        (range == 0.0 || (range <= spacing && 2 * count < size)))
-      return count;
+    if (std::isfinite (beyond) && last <= limits.near * beyond && beyond > limits.apart * spacing &&
+        (last == 0.0 || (last <= spacing && 2.0 * static_cast<double> (points.size ()) < size)))
+      return points;
+    beyond = last;
   }
-  return 0;
+  return {};
 }
 
 void
@@ -123,14 +115,12 @@ findPixels (const PositionList& positions, const PositionList& sample,
     if (!is_origin)
       fewest = std::max (fewest, limits.share * size);
     const double most = rangeOfMost (sample, place);
-    const NearPoints nearby = findNearby (positions, place, is_origin ? limits.near * most : 0.0);
-    const std::size_t count =
-        countPixels (nearby, static_cast<std::size_t> (std::ceil (fewest)),
-                     2.0 * most / std::sqrt (size), positions.size (), limits);
-    for (std::size_t i = 0; i < count; ++i)
-      found.pixels.push_back (nearby.points[i].second);
+    const auto pixels =
+        pixelsAt (positions, place, is_origin ? limits.near * most : 0.0, fewest, most, limits);
+    for (const auto& pixel : pixels)
+      found.pixels.push_back (pixel.second);
     found.place = place;
-    if (count > 0)
+    if (!pixels.empty ())
       return;
   }
 }

@@ -24,21 +24,6 @@ writeRow (const std::vector<Neighbor>& found, Index self, std::size_t k, Index* 
   std::fill (row + count, row + k, NONE);
 }
 
-void
-searchWhole (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, std::size_t k,
-             const KdTree& tree, const RunContext& run, std::vector<Index>& ids)
-{
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Index> points;
-    for (std::size_t i = first; i < last; ++i)
-      points.push_back (rows[i]);
-    SequentialSearch (tree, positions, k + 1)
-        .search (points, [&] (std::size_t i, const std::vector<Neighbor>& found) {
-          writeRow (found, points[i], k, ids.data () + (first + i) * k);
-        });
-  });
-}
-
 // Searches for the rows from `begin` to before `end`, which are own points of the block.
 void
 searchBlock (BlockSearch& search, const Rows& rows, std::size_t begin, std::size_t end,
@@ -89,8 +74,18 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
                       const KdTree& tree, const RunContext& run)
 {
   CsrLists lists = emptyLists (positions.size (), rows.size (), k);
-  if (lists.rows () > 0)
-    searchWhole (positions, rows, lists.offsets[1], tree, run, lists.ids);
+  if (lists.rows () == 0)
+    return lists;
+  const std::size_t count = lists.offsets[1];
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Index> points;
+    for (std::size_t i = first; i < last; ++i)
+      points.push_back (rows[i]);
+    SequentialSearch (tree, positions, count + 1)
+        .search (points, [&] (std::size_t i, const std::vector<Neighbor>& found) {
+          writeRow (found, points[i], count, lists.ids.data () + (first + i) * count);
+        });
+  });
   return lists;
 }
 
@@ -132,43 +127,48 @@ findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, i
   return lists;
 }
 
+namespace {
+// Lists of what find (p, found) finds for each of the rows.
+template <typename Find>
 CsrLists
-searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const RunContext& run)
+collectRows (const Rows& rows, const RunContext& run, const Find& find)
 {
   CsrLists lists;
-  lists.offsets.reserve (rows.size () + 1);
-  lists.offsets.push_back (0);
-  std::vector<Neighbor> found;
-  ProgressLoop progress (run, rows.size ());
-  for (std::size_t i = 0; i < rows.size (); ++i) {
-    progress.next ();
-    search.nearest (rows[i], static_cast<std::size_t> (k), found);
-    for (const Neighbor& neighbor : found)
-      lists.ids.push_back (neighbor.point);
-    requireListed (lists.ids.size ());
-    lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
-  }
+  lists.offsets.assign (rows.size () + 1, 0);
+  RangeLists<Index> ranges (rows.size ());
+  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Neighbor> found;
+    std::vector<Index>& range = ranges.of (first);
+    for (std::size_t i = first; i < last; ++i) {
+      find (rows[i], found);
+      for (const Neighbor& neighbor : found)
+        range.push_back (neighbor.point);
+      lists.offsets[i + 1] = static_cast<Index> (found.size ());
+    }
+  });
+  requireListed (ranges.size ());
+  sumRowLengths (lists.offsets);
+  lists.ids = ranges.join ();
   return lists;
 }
 
-namespace {
 // Radius of the ball around a point, given its nearest others. Widened to the farthest of them if
 // needed.
 double
 ballRadius (const std::vector<Neighbor>& nearest, double radius)
 {
+  if (nearest.empty ())
+    return 0.0;
   double sum = 0.0;
   for (const Neighbor& neighbor : nearest)
     sum += std::sqrt (neighbor.sqr_distance);
-  const double spacing = nearest.empty () ? 0.0 : sum / static_cast<double> (nearest.size ());
-  // Squaring a square root may round down.
-  constexpr double ROUNDING = 1.0 + 1e-15;
-  return nearest.empty ()
-             ? 0.0
-             : std::max (radius * spacing, ROUNDING * std::sqrt (nearest.back ().sqr_distance));
+  const double spacing = sum / static_cast<double> (nearest.size ());
+  constexpr double ROUNDING = 1.0 + 1e-15; // squaring a square root may round down
+  return std::max (radius * spacing, ROUNDING * std::sqrt (nearest.back ().sqr_distance));
 }
 
-// The core's tree with the interface of CallerSearch.
+// The core's tree with the interface of CallerSearch. Bounded: beside a jump in density a ball may
+// contain the whole cloud.
 class TreeSearch
 {
 public:
@@ -179,27 +179,20 @@ public:
 
   void nearest (Index p, std::size_t k, std::vector<Neighbor>& found) const
   {
-    tree_.nearest (positions_[p], k + 1, found);
-    drop (p, found);
-    found.resize (std::min (k, found.size ()));
+    search (p, KdTree::EVERYWHERE, k, found);
   }
-  // Bounded: beside a jump in density the ball may contain the whole cloud.
   void within (Index p, double radius, std::vector<Neighbor>& found) const
   {
-    tree_.nearestIf (
-        positions_[p], Eigen::Vector3d::Zero (), radius, MOST_IN_BALL,
-        [p] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
-          return neighbor.point != p;
-        },
-        found);
+    search (p, radius, MOST_IN_BALL, found);
   }
 
 private:
-  static void drop (Index p, std::vector<Neighbor>& found)
+  void search (Index p, double radius, std::size_t most, std::vector<Neighbor>& found) const
   {
-    found.erase (std::remove_if (found.begin (), found.end (),
-                                 [p] (const Neighbor& neighbor) { return neighbor.point == p; }),
-                 found.end ());
+    const auto isOther = [p] (const Neighbor& neighbor, const auto&) {
+      return neighbor.point != p;
+    };
+    tree_.nearestIf (positions_[p], Eigen::Vector3d::Zero (), radius, most, isOther, found);
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
@@ -210,29 +203,22 @@ template <typename Search>
 CsrLists
 searchBalls (const Rows& rows, double radius, Search& search, const RunContext& run)
 {
-  CsrLists lists;
-  lists.offsets.assign (rows.size () + 1, 0);
-  RangeLists<Index> ranges (rows.size ());
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    std::vector<Index>& range = ranges.of (first);
-    for (std::size_t i = first; i < last; ++i) {
-      search.nearest (rows[i], SPACING_NEIGHBORS, found);
-      search.within (rows[i], ballRadius (found, radius), found);
-      const std::size_t count = std::min (found.size (), MOST_IN_BALL);
-      for (std::size_t n = 0; n < count; ++n)
-        range.push_back (found[n].point);
-      lists.offsets[i + 1] = static_cast<Index> (count);
-    }
+  return collectRows (rows, run, [&] (Index p, std::vector<Neighbor>& found) {
+    search.nearest (p, SPACING_NEIGHBORS, found);
+    search.within (p, ballRadius (found, radius), found);
+    found.resize (std::min (found.size (), MOST_IN_BALL));
   });
-  requireCountable (ranges.size (), NONE - 1, "the table of neighbours in balls",
-                    "use fewer points or a smaller radius");
-  sumRowLengths (lists.offsets);
-  lists.ids = ranges.join ();
-  return lists;
 }
 
 } // namespace
+
+CsrLists
+searchNearestNeighbors (CallerSearch& search, const Rows& rows, int k, const RunContext& run)
+{
+  return collectRows (rows, run.withThreads (1), [&] (Index p, std::vector<Neighbor>& found) {
+    search.nearest (p, static_cast<std::size_t> (k), found);
+  });
+}
 
 CsrLists
 findBallNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, double radius,
@@ -306,6 +292,20 @@ CallerSearch::within (Index p, double radius, std::vector<Neighbor>& found)
 }
 
 namespace {
+// Number of blocks for a cloud: one up to 262144 points, otherwise blocks of at most 131072 points,
+// the same number for every thread.
+std::size_t
+chooseBlocks (std::size_t points, int wanted, const RunContext& run)
+{
+  constexpr std::size_t BLOCK = 131072; // points: the halo then adds a tenth to the work
+  if (wanted > 0)
+    return static_cast<std::size_t> (wanted);
+  if (points <= 2 * BLOCK)
+    return 1;
+  const auto at_once = static_cast<std::size_t> (run.threads ());
+  return (points / BLOCK + at_once) / at_once * at_once;
+}
+
 CsrLists
 findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings& settings,
                  const RunContext& run, std::optional<KdTree>* tree = nullptr)
@@ -327,39 +327,6 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
   return findNearestNeighbors (positions, rows, settings.options.k, **tree, run);
 }
 
-// New numbers of points after a removal.
-class Renumbering
-{
-public:
-  // \param removed ascending; must outlive this
-  Renumbering (const std::vector<Index>& removed, std::size_t points_before) : removed_ (removed)
-  {
-    starts_.reserve ((points_before >> SHIFT) + 2);
-    for (std::size_t i = 0, first = 0; i <= points_before >> SHIFT; ++i) {
-      while (first < removed.size () && removed[first] < i << SHIFT)
-        ++first;
-      starts_.push_back (first);
-    }
-    starts_.push_back (removed.size ());
-  }
-
-  // NONE for removed points.
-  Index after (Index p) const
-  {
-    const auto begin = removed_.begin ();
-    const auto place =
-        std::lower_bound (begin + static_cast<std::ptrdiff_t> (starts_[p >> SHIFT]),
-                          begin + static_cast<std::ptrdiff_t> (starts_[(p >> SHIFT) + 1]), p);
-    return place != removed_.end () && *place == p ? NONE : p - static_cast<Index> (place - begin);
-  }
-
-private:
-  static constexpr unsigned SHIFT = 12;
-
-  const std::vector<Index>& removed_;
-  std::vector<std::size_t> starts_; // number of removed points before every 4096th point
-};
-
 } // namespace
 
 CsrLists
@@ -375,13 +342,24 @@ CsrLists
 renewRows (const CsrLists& before, Index first, std::size_t points_before,
            const std::vector<Index>& removed, const std::function<CsrLists (const Rows&)>& search)
 {
-  const Renumbering renumbering (removed, points_before);
+  constexpr unsigned SHIFT = 12;
+  const auto find = [gone = removed.data ()] (std::size_t begin, std::size_t end, std::size_t p) {
+    return static_cast<std::size_t> (std::lower_bound (gone + begin, gone + end, p) - gone);
+  };
+  std::vector<std::size_t> starts; // number of removed points before every 4096th point
+  for (std::size_t i = 0; i <= (points_before >> SHIFT) + 1; ++i)
+    starts.push_back (find (0, removed.size (), i << SHIFT));
+  // The new number of a point; NONE if it was removed.
+  const auto after = [&] (Index p) {
+    const std::size_t place = find (starts[p >> SHIFT], starts[(p >> SHIFT) + 1], p);
+    return place < removed.size () && removed[place] == p ? NONE : p - static_cast<Index> (place);
+  };
+  const auto isGone = [&after] (Index p) { return after (p) == NONE; };
   std::vector<Index> changed; // points that lost a neighbour
   for (std::size_t r = 0; r < before.rows (); ++r) {
     const Row row = before.row (r);
-    const Index p = renumbering.after (first + static_cast<Index> (r));
-    if (p != NONE && std::any_of (row.begin (), row.end (),
-                                  [&] (Index q) { return renumbering.after (q) == NONE; }))
+    const Index p = after (first + static_cast<Index> (r));
+    if (p != NONE && std::any_of (row.begin (), row.end (), isGone))
       changed.push_back (p);
   }
   const CsrLists renewed = search (Rows::of (changed));
@@ -391,7 +369,7 @@ renewRows (const CsrLists& before, Index first, std::size_t points_before,
   lists.ids.reserve (before.ids.size ());
   std::size_t next = 0; // among the changed
   for (std::size_t r = 0; r < before.rows (); ++r) {
-    const Index p = renumbering.after (first + static_cast<Index> (r));
+    const Index p = after (first + static_cast<Index> (r));
     if (p == NONE)
       continue;
     if (next < changed.size () && changed[next] == p) {
@@ -400,7 +378,7 @@ renewRows (const CsrLists& before, Index first, std::size_t points_before,
     }
     else {
       for (const Index q : before.row (r))
-        lists.ids.push_back (renumbering.after (q));
+        lists.ids.push_back (after (q));
     }
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }

@@ -90,8 +90,6 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
                       const KdTree& tree, const RunContext& run);
 
 /// findNearestNeighbors () for the own points of a block; widens the block where needed.
-/// \param rows   points of the working set, ascending
-/// \param points number of points of the whole working set
 CsrLists
 findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, int k,
                     const RunContext& run);
@@ -136,9 +134,7 @@ findNeighbors (const Points& points, const NeighborSettings& settings, const Run
 
 /// Updates neighbour lists of consecutive points after points were removed: renumbers them, and
 /// searches only for points that lost a neighbour.
-/// \param before        lists before the removal
 /// \param first         point of the first list, in the old numbering
-/// \param points_before number of points of the whole working set
 /// \param removed       points in the old numbering, ascending
 /// \param search        makes the lists of points in the new numbering, ascending
 /// \return lists of the remaining points
@@ -148,9 +144,7 @@ renewRows (const CsrLists& before, Index first, std::size_t points_before,
 
 /// Updates the neighbour lists of all points, like renewRows (). The result equals findNeighbors
 /// ().
-/// \param points    after the removal
 /// \param removed   points in the old numbering, ascending
-/// \param neighbors lists before the removal
 CsrLists
 renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
                 const NeighborSettings& settings, const RunContext& run);

@@ -7,8 +7,8 @@
 #include "core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <numeric>
 
 namespace pcl::floater {
 namespace {
@@ -77,19 +77,6 @@ pointsTooNear (const std::vector<Eigen::Vector3d>& positions, const CsrLists& ne
   return aside;
 }
 
-template <typename Value>
-void
-erase (std::vector<Value>& values, const std::vector<Index>& removed)
-{
-  std::size_t next = 0, kept = 0;
-  for (std::size_t i = 0; i < values.size (); ++i)
-    if (next < removed.size () && removed[next] == i)
-      ++next;
-    else
-      values[kept++] = values[i];
-  values.resize (kept);
-}
-
 } // namespace
 
 std::vector<std::uint8_t>
@@ -99,7 +86,6 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   const std::size_t n = positions.size ();
   std::vector<std::uint8_t> is_equal (n, 0), is_stacked_block (n / RANGE_LENGTH + 1, 0);
   std::vector<std::vector<double>> cosines_of (n / RANGE_LENGTH + 1);
-  std::atomic<bool> is_any_block{false}, is_any_equal{false};
   const auto areStacked = [&limits] (std::vector<double> cosines, std::size_t points) {
     const double share = static_cast<double> (cosines.size ()) / static_cast<double> (points);
     return points >= limits.least_points &&
@@ -119,8 +105,6 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
                         by = q;
                       return by == NONE;
                     });
-      if (is_equal[p] != 0)
-        is_any_equal = true;
       if (by == NONE)
         continue;
       PlaneFit fit;
@@ -131,12 +115,13 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
         cosines.push_back (
             std::abs (plane.normal.dot ((positions[by] - positions[p]).normalized ())));
     }
-    if (areStacked (cosines, last - first)) {
-      is_stacked_block[first / RANGE_LENGTH] = 1;
-      is_any_block = true;
-    }
+    is_stacked_block[first / RANGE_LENGTH] = areStacked (cosines, last - first) ? 1 : 0;
   });
-  if (!is_any_block && !is_any_equal)
+  const auto isAny = [] (const std::vector<std::uint8_t>& flags) {
+    return std::find (flags.begin (), flags.end (), 1) != flags.end ();
+  };
+  const bool is_any_block = isAny (is_stacked_block);
+  if (!is_any_block && !isAny (is_equal))
     return {};
   std::vector<double> cosines; // of the whole cloud
   for (const std::vector<double>& some : cosines_of)
@@ -168,16 +153,15 @@ chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings
   net.positions = points.positions;
   net.cloud_index = points.cloud_index;
   std::vector<Index> kept (points.size ());
-  for (Index p = 0; p < kept.size (); ++p)
-    kept[p] = p;
+  std::iota (kept.begin (), kept.end (), Index{0});
   for (std::size_t round = 0; round < limits.rounds; ++round) {
     const std::vector<Index> aside = pointsTooNear (net.positions, neighbors, is_stacked, limits);
     if (aside.empty ())
       break;
-    erase (net.positions, aside);
-    erase (net.cloud_index, aside);
-    erase (is_stacked, aside);
-    erase (kept, aside);
+    eraseRows (net.positions, aside);
+    eraseRows (net.cloud_index, aside);
+    eraseRows (is_stacked, aside);
+    eraseRows (kept, aside);
     neighbors = renewNeighbors (net, aside, neighbors, settings, run);
   }
   constexpr std::size_t FEWEST = 4; // of a surface

@@ -14,7 +14,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -62,6 +62,14 @@ spacingOf (const std::vector<Eigen::Vector3d>& positions, Index p, Row row)
   return count > 0 ? sum / static_cast<double> (count) : 0.0;
 }
 
+// What is measured at one point.
+struct Place
+{
+  float noise = 0.0F;
+  float unevenness = 0.0F; // residual in spacings at the flattest scale; below 0: unknown
+  float dimension = 0.0F;  // 0: unknown
+};
+
 // Measures the noise at one point; scratch is reused from point to point.
 class NoiseMeter
 {
@@ -71,13 +79,6 @@ public:
       : positions_ (positions), neighbors_ (neighbors), samples_ (samples), limits_ (limits)
   {
   }
-
-  struct Place
-  {
-    float noise = 0.0F;
-    float unevenness = 0.0F; // residual in spacings at the flattest scale; below 0: unknown
-    float dimension = 0.0F;  // 0: unknown
-  };
 
   Place measure (Index p, bool is_unevenness_needed)
   {
@@ -121,8 +122,11 @@ public:
         if (isRough (relative[scale]) && relative[larger] >= 0.0 &&
             relative[larger] < limits_.falls_to * relative[scale])
           noise = std::max (noise, residual[scale]);
-    return {static_cast<float> (noise),
-            lines == SCALES ? NO_SURFACE : static_cast<float> (smallestKnown (relative)),
+    float flattest = lines == SCALES ? NO_SURFACE : -1.0F;
+    for (const double value : relative)
+      if (value >= 0.0 && (flattest < 0.0F || value < flattest))
+        flattest = static_cast<float> (value);
+    return {static_cast<float> (noise), flattest,
             static_cast<float> (0.5 * (growth (half[1], half[2]) + growth (whole[1], whole[2])))};
   }
 
@@ -133,15 +137,6 @@ private:
     return smaller > 0.0 && larger > smaller
                ? std::log (STRIDES[2] / STRIDES[1]) / std::log (larger / smaller)
                : 0.0;
-  }
-
-  static double smallestKnown (const std::array<double, SCALES>& relative)
-  {
-    double smallest = -1.0;
-    for (const double value : relative)
-      if (value >= 0.0 && (smallest < 0.0 || value < smallest))
-        smallest = value;
-    return smallest;
   }
 
   PrincipalAxes axesOfOffsets () const
@@ -172,11 +167,11 @@ private:
   bool keepOwnSheet (const PrincipalAxes& axes, double spacing)
   {
     local_.clear ();
-    for (const Eigen::Vector3d& offset : offsets_)
-      local_.emplace_back (axes.axes.transpose () * (offset - axes.centre));
     heights_.clear ();
-    for (const Eigen::Vector3d& point : local_)
-      heights_.push_back (point[0]);
+    for (const Eigen::Vector3d& offset : offsets_) {
+      local_.emplace_back (axes.axes.transpose () * (offset - axes.centre));
+      heights_.push_back (local_.back ()[0]);
+    }
     std::sort (heights_.begin (), heights_.end ());
     const std::size_t count = heights_.size ();
     std::size_t below = 0;
@@ -220,10 +215,10 @@ private:
   std::vector<double> heights_;
 };
 
-// The noise around each centre: a quantile of those measured near it.
+// A value around each centre: a quantile of those measured near it.
 std::vector<float>
-smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
-          const PointSample& centres, double quantile, const RunContext& run)
+smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<Place>& at_centre,
+          float Place::*value, const PointSample& centres, double quantile, const RunContext& run)
 {
   std::vector<float> result (at_centre.size ());
   parallelRanges (run, at_centre.size (), [&] (std::size_t first, std::size_t last) {
@@ -233,7 +228,7 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
       centres.nearest (positions[c * CENTRES], AROUND, found);
       values.clear ();
       for (const Neighbor& neighbor : found)
-        values.push_back (at_centre[neighbor.point / CENTRES]);
+        values.push_back (at_centre[neighbor.point / CENTRES].*value);
       result[c] = valueAtRank (
           values, static_cast<std::size_t> (quantile * static_cast<double> (values.size () - 1)));
     }
@@ -244,7 +239,7 @@ smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<float
 // Measurements at each centre.
 struct Places
 {
-  std::vector<float> noise, unevenness, dimension;
+  std::vector<Place> at_centre;
   bool are_noisy = true, are_uneven = true; // enough of them
 };
 
@@ -255,60 +250,26 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& ne
   const PointSample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
   const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
   Places places;
-  for (auto* const values : {&places.noise, &places.unevenness, &places.dimension})
-    values->resize (centres);
+  places.at_centre.resize (centres);
   for (const std::size_t stride : {PROBES, std::size_t{1}}) {
     const std::size_t count = (centres + stride - 1) / stride;
     parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
       NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
-      for (std::size_t i = first * stride; i < last * stride; i += stride) {
-        const NoiseMeter::Place place =
-            meter.measure (static_cast<Index> (i * CENTRES), places.are_uneven);
-        places.noise[i] = place.noise;
-        places.unevenness[i] = place.unevenness;
-        places.dimension[i] = place.dimension;
-      }
+      for (std::size_t i = first * stride; i < last * stride; i += stride)
+        places.at_centre[i] = meter.measure (static_cast<Index> (i * CENTRES), places.are_uneven);
     });
-    const auto noisy = std::count_if (places.noise.begin (), places.noise.end (),
-                                      [] (float x) { return x > 0.0F; });
-    const auto uneven =
-        std::count_if (places.unevenness.begin (), places.unevenness.end (),
-                       [&] (float x) { return static_cast<double> (x) >= limits.uneven; });
+    std::size_t noisy = 0, uneven = 0;
+    for (const Place& place : places.at_centre) {
+      noisy += place.noise > 0.0F ? 1 : 0;
+      uneven += static_cast<double> (place.unevenness) >= limits.uneven ? 1 : 0;
+    }
     places.are_noisy =
         places.are_noisy && static_cast<double> (noisy) >= FEW * static_cast<double> (count);
-    places.are_uneven = places.are_uneven &&
-                        static_cast<std::size_t> (uneven) * stride * CENTRES >= limits.least_uneven;
+    places.are_uneven = places.are_uneven && uneven * stride * CENTRES >= limits.least_uneven;
     if (!places.are_noisy && !places.are_uneven)
       break;
   }
   return places;
-}
-
-// The median around each point.
-std::vector<float>
-spread (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& at_centre,
-        const PointSample& centres, const RunContext& run)
-{
-  const std::vector<float> around = smoothed (positions, at_centre, centres, 0.5, run);
-  std::vector<float> at_point (positions.size ());
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    for (std::size_t p = first; p < last; ++p) {
-      centres.nearest (positions[p], 1, found);
-      at_point[p] = around[found.front ().point / CENTRES];
-    }
-  });
-  return at_point;
-}
-
-void
-summarize (std::vector<float> relative, Noise& noise)
-{
-  noise.noisy_points = static_cast<std::size_t> (
-      std::count_if (relative.begin (), relative.end (), [] (float x) { return x > 0.0F; }));
-  noise.median = static_cast<double> (median (relative));
-  noise.quantile_90 = static_cast<double> (quantile (relative, 0.9));
-  noise.largest = static_cast<double> (quantile (relative, 1.0));
 }
 
 } // namespace
@@ -326,43 +287,56 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   if (!places.are_noisy && !places.are_uneven)
     return noise;
   const PointSample centres (positions, CENTRES, run);
-  if (places.are_uneven) {
-    noise.unevenness = spread (positions, places.unevenness, centres, run);
-    noise.dimension = spread (positions, places.dimension, centres, run);
-  }
-  if (!places.are_noisy)
-    return noise;
-  const std::vector<float> around =
-      smoothed (positions, places.noise, centres, limits.quantile, run);
-  std::vector<float> relative (n, 0.0F);
+  std::vector<Index> nearest (n); // centre of each point, in space: along the curve, values jump
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t p = first; p < last; ++p) {
-      // The nearest in space: along the curve, the noise would jump.
       centres.nearest (positions[p], 1, found);
-      const float here = around[found.front ().point / CENTRES];
-      const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
-      if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
-        continue; // a caller's search may find no neighbours: no spacing
-      noise.at_point[p] = here;
-      relative[p] = static_cast<float> (here / spacing);
+      nearest[p] = found.front ().point / CENTRES;
     }
   });
-  summarize (std::move (relative), noise);
+  const auto around = [&] (float Place::*value, double quantile) {
+    const std::vector<float> smooth =
+        smoothed (positions, places.at_centre, value, centres, quantile, run);
+    std::vector<float> at_point (n);
+    for (std::size_t p = 0; p < n; ++p)
+      at_point[p] = smooth[nearest[p]];
+    return at_point;
+  };
+  if (places.are_uneven) {
+    noise.unevenness = around (&Place::unevenness, 0.5);
+    noise.dimension = around (&Place::dimension, 0.5);
+  }
+  if (!places.are_noisy)
+    return noise;
+  noise.at_point = around (&Place::noise, limits.quantile);
+  std::vector<float> relative (n, 0.0F);
+  for (std::size_t p = 0; p < n; ++p) {
+    // A caller's search may find no neighbours: no spacing.
+    const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
+    const float here = std::exchange (noise.at_point[p], 0.0F);
+    if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
+      continue;
+    noise.at_point[p] = here;
+    relative[p] = static_cast<float> (here / spacing);
+    ++noise.noisy_points;
+  }
+  noise.median = static_cast<double> (median (relative));
+  noise.quantile_90 = static_cast<double> (quantile (relative, 0.9));
+  noise.largest = static_cast<double> (quantile (relative, 1.0));
   return noise;
 }
 
 bool
 isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share)
 {
-  const auto points = static_cast<double> (agreement.size ());
   if (noise.noisy_points == 0)
     return false;
   double disturbed = 0.0;
   for (std::size_t p = 0; p < agreement.size (); ++p)
     if (noise.at_point[p] > 0.0F)
       disturbed += 1.0 - static_cast<double> (agreement[p]);
-  return disturbed >= disturbed_share * points;
+  return disturbed >= disturbed_share * static_cast<double> (agreement.size ());
 }
 
 bool
@@ -399,9 +373,9 @@ projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   constexpr double NARROWNESS = 4.0;
   constexpr double OUTSIDE = 4.5; // standard deviations at which the weight vanishes
   constexpr int PASSES = 2;
-  const PointSample all (positions, 1, run), quarter (positions, STRIDES[1], run),
-      sixteenth (positions, STRIDES[2], run);
-  const std::array<const PointSample*, SCALES> samples{&all, &quarter, &sixteenth};
+  std::vector<PointSample> samples;
+  for (const std::size_t stride : STRIDES)
+    samples.emplace_back (positions, stride, run);
   std::vector<Eigen::Vector3d> projected = positions;
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
@@ -419,7 +393,7 @@ projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
         ++scale;
       const auto count = static_cast<std::size_t> (
           std::min (static_cast<double> (MOST), wanted / static_cast<double> (STRIDES[scale])));
-      samples[scale]->nearest (positions[p], count, found);
+      samples[scale].nearest (positions[p], count, found);
       const double sqr_reach = found.back ().sqr_distance;
       Plane plane;
       for (int pass = 0; pass < PASSES; ++pass) {

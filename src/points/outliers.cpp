@@ -19,8 +19,6 @@ namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
 
-constexpr double MOST_BINS = 1e5;
-
 // The median in each coordinate, of the finite points.
 Eigen::Vector3d
 medianPoint (const Positions& positions)
@@ -88,27 +86,22 @@ findBulk (const Positions& positions, double gap)
   return bulk;
 }
 
-bool
-isLess (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  return std::lexicographical_compare (a.data (), a.data () + 3, b.data (), b.data () + 3);
-}
-
 // Keeps rows beyond the gap with too few distinct points near them for an object.
 std::vector<Index>
 keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> rows,
               const RunContext& run, const GrossOutlierLimits& limits)
 {
-  const auto isBefore = [&] (Index a, Index b) { return isLess (positions[a], positions[b]); };
+  const auto isBefore = [&] (Index a, Index b) {
+    const Eigen::Vector3d &p = positions[a], &q = positions[b];
+    return std::lexicographical_compare (p.begin (), p.end (), q.begin (), q.end ());
+  };
   std::sort (rows.begin (), rows.end (), isBefore);
   Positions distinct;
-  std::vector<std::size_t> last; // one past the last row of each distinct position
+  std::vector<std::size_t> number (rows.size ()); // of the position of each row
   for (std::size_t i = 0; i < rows.size (); ++i) {
-    if (i == 0 || isBefore (rows[i - 1], rows[i])) {
+    if (i == 0 || isBefore (rows[i - 1], rows[i]))
       distinct.emplace_back ((positions[rows[i]] - bulk.centre) / bulk.radius);
-      last.push_back (i);
-    }
-    last.back () = i + 1;
+    number[i] = distinct.size () - 1;
   }
   std::vector<std::uint8_t> is_isolated (distinct.size (), 0);
   const KdTree tree (distinct, run);
@@ -116,49 +109,18 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
     std::vector<Neighbor> found;
     for (std::size_t i = begin; i < end; ++i) {
       tree.nearest (distinct[i], limits.object, found); // includes the point itself
-      is_isolated[i] = found.size () < limits.object || std::sqrt (found.back ().sqr_distance) >
-                                                            limits.near * distinct[i].norm ()
-                           ? 1
-                           : 0;
+      const double near = limits.near * distinct[i].norm ();
+      const bool is_alone =
+          found.size () < limits.object || std::sqrt (found.back ().sqr_distance) > near;
+      is_isolated[i] = is_alone ? 1 : 0;
     }
   });
   std::vector<Index> isolated;
-  for (std::size_t i = 0, row = 0; i < distinct.size (); ++i)
-    for (; row < last[i]; ++row)
-      if (is_isolated[i] != 0)
-        isolated.push_back (rows[row]);
+  for (std::size_t i = 0; i < rows.size (); ++i)
+    if (is_isolated[number[i]] != 0)
+      isolated.push_back (rows[i]);
   std::sort (isolated.begin (), isolated.end ());
   return isolated;
-}
-
-// Fast test that no point is beyond the bulk: along the longest axis, less than half of the points
-// lie in any interval as wide as the distances of a half could be otherwise.
-bool
-isAllBulk (const Positions& positions, double gap)
-{
-  Eigen::AlignedBox3d box;
-  std::size_t finite = 0;
-  for (const Eigen::Vector3d& p : positions)
-    if (p.allFinite ()) {
-      box.extend (p);
-      ++finite;
-    }
-  int axis = 0;
-  const double width = finite > 0 ? box.sizes ().maxCoeff (&axis) : 0.0;
-  const double bins = 0.4 * gap; // any such interval is in two of them, even if rounded
-  if (!(width > 0.0) || !std::isfinite (width) || !(bins >= 2.0) || bins > MOST_BINS)
-    return false;
-  std::vector<std::size_t> count (static_cast<std::size_t> (bins) + 2, 0);
-  const double low = box.min ()[axis], scale = std::floor (bins) / width;
-  if (!std::isfinite (scale))
-    return false;
-  for (const Eigen::Vector3d& p : positions)
-    if (p.allFinite ())
-      ++count[static_cast<std::size_t> ((p[axis] - low) * scale)];
-  for (std::size_t bin = 1; bin < count.size (); ++bin)
-    if (2 * (count[bin - 1] + count[bin]) >= finite)
-      return false;
-  return true;
 }
 
 } // namespace
@@ -169,8 +131,6 @@ findGrossOutliers (const Positions& positions, const RunContext& run,
 {
   GrossOutliers found;
   if (positions.size () < limits.fewest)
-    return found;
-  if (isAllBulk (positions, limits.gap))
     return found;
   const Bulk bulk = findBulk (positions, limits.gap);
   if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
@@ -200,7 +160,7 @@ constexpr std::size_t REACH_OF = 6;        // neighbour whose distance is a poin
 using Arc = std::pair<Index, Index>; // a point and one that it counts as close
 
 double
-distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
+distance (const Positions& positions, Index p, Index q)
 {
   return (positions[p] - positions[q]).norm ();
 }
@@ -307,29 +267,22 @@ keepReached (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
   }
 }
 
-// Clears the flag of points in clusters larger than `largest_cluster`.
-void
-keepLargeClusters (const std::vector<Arc>& arcs, std::size_t largest_cluster,
-                   std::vector<std::uint8_t>& apart)
+// The points that lie apart in clusters of at most `largest_cluster`, ascending.
+std::vector<Index>
+smallClusters (const std::vector<Arc>& arcs, std::size_t largest_cluster,
+               const std::vector<std::uint8_t>& apart)
 {
-  std::vector<Index> points;
-  for (std::size_t p = 0; p < apart.size (); ++p)
-    if (apart[p] != 0)
-      points.push_back (static_cast<Index> (p));
-  const auto slot = [&points] (Index p) {
-    return static_cast<Index> (std::lower_bound (points.begin (), points.end (), p) -
-                               points.begin ());
-  };
-  DisjointSets clusters (points.size ());
+  DisjointSets clusters (apart.size ());
   for (const Arc& arc : arcs)
     if (apart[arc.first] != 0 && apart[arc.second] != 0)
-      clusters.join (slot (arc.first), slot (arc.second));
-  std::vector<std::size_t> size (points.size (), 0);
-  for (Index i = 0; i < points.size (); ++i)
-    ++size[clusters.find (i)];
-  for (Index i = 0; i < points.size (); ++i)
-    if (size[clusters.find (i)] > largest_cluster)
-      apart[points[i]] = 0;
+      clusters.join (arc.first, arc.second);
+  std::vector<Index> size (apart.size (), 0), points;
+  for (Index p = 0; p < apart.size (); ++p)
+    ++size[clusters.find (p)];
+  for (Index p = 0; p < apart.size (); ++p)
+    if (apart[p] != 0 && size[clusters.find (p)] <= largest_cluster)
+      points.push_back (p);
+  return points;
 }
 
 } // namespace
@@ -339,9 +292,8 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
               const RunContext& run, const OutlierLimits& limits)
 {
   const std::size_t n = positions.size ();
-  std::vector<Index> outliers;
   if (n < 3 * limits.cluster)
-    return outliers;
+    return {};
   std::vector<float> reach (n, 0.0F); // distance to the 6th nearest neighbour; 0 if there are none
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p)
@@ -356,14 +308,10 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
       apart[p] = test.isApart (static_cast<Index> (p)) ? 1 : 0;
   });
   if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
-    return outliers;
+    return {};
   const std::vector<Arc> arcs = arcsToApart (neighbors, apart, limits);
   keepReached (arcs, apart);
-  keepLargeClusters (arcs, limits.cluster, apart);
-  for (std::size_t p = 0; p < n; ++p)
-    if (apart[p] != 0)
-      outliers.push_back (static_cast<Index> (p));
-  return outliers;
+  return smallClusters (arcs, limits.cluster, apart);
 }
 
 } // namespace pcl::floater

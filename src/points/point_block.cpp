@@ -10,8 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t BLOCK = 131072; // points: the halo then adds a tenth to the work
-constexpr std::size_t BUCKET = 64;    // points; a bucket is about 8 spacings wide, its diagonal 12
+constexpr std::size_t BUCKET = 64; // points; a bucket is about 8 spacings wide, its diagonal 12
 
 std::size_t
 bucketsOf (std::size_t points)
@@ -47,26 +46,17 @@ PointBlock::placeOf (Index point) const
 
 BlockCutter::BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
                           const RunContext& run)
-    : BlockCutter (positions,
-                   std::make_shared<const std::vector<Box>> (makeBuckets (positions, run)), blocks)
+    : points_ (positions.size ())
 {
-}
-
-BlockCutter::BlockCutter (const std::vector<Eigen::Vector3d>& positions,
-                          const std::shared_ptr<const std::vector<Box>>& buckets,
-                          std::size_t blocks)
-    : BlockCutter (
-          positions.size (), makeGroups (*buckets),
-          std::clamp<std::size_t> (blocks, 1, std::max<std::size_t> (1, buckets->size ())),
-          [buckets] (std::size_t first, std::size_t last, std::vector<Box>& to) {
-            const auto begin = buckets->begin ();
-            to.insert (to.end (), begin + static_cast<std::ptrdiff_t> (first),
-                       begin + static_cast<std::ptrdiff_t> (last));
-          },
-          [&positions] (Index first, Index last, std::vector<Eigen::Vector3d>& to) {
-            to.insert (to.end (), positions.begin () + first, positions.begin () + last);
-          })
-{
+  const auto buckets = std::make_shared<const std::vector<Box>> (makeBuckets (positions, run));
+  groups_ = makeGroups (*buckets);
+  blocks_ = std::clamp<std::size_t> (blocks, 1, std::max<std::size_t> (1, buckets->size ()));
+  read_buckets_ = [buckets] (std::size_t first, std::size_t last, std::vector<Box>& to) {
+    to.insert (to.end (), buckets->data () + first, buckets->data () + last);
+  };
+  read_ = [&positions] (Index first, Index last, std::vector<Eigen::Vector3d>& to) {
+    to.insert (to.end (), positions.data () + first, positions.data () + last);
+  };
 }
 
 BlockCutter::BlockCutter (std::size_t points, std::vector<Box> groups, std::size_t blocks,
@@ -158,8 +148,8 @@ BlockCutter::cut (std::size_t block, const std::vector<Ball>& balls, double widt
     return isWithin (box, own_box, cut.halo) && (!closely || isNear (box, own, cut.halo));
   };
   const auto isWantedGroup = [&] (std::size_t group) {
-    const bool has_own = group * GROUP < own.last && own.first < (group + 1) * GROUP;
-    return has_own || isWanted (groups_[group], false);
+    return (group * GROUP < own.last && own.first < (group + 1) * GROUP) ||
+           isWanted (groups_[group], false);
   };
   std::size_t run_first = 0, run_last = 0; // range of requested buckets
   const auto appendBucket = [&] (std::size_t bucket) {
@@ -227,8 +217,7 @@ BlockSearch::left ()
     tree ().nearest (ball.centre, 1, found); // the point itself: positions are distinct
     points.push_back (block_.points[found.front ().point]);
   }
-  std::sort (points.begin (), points.end ());
-  points.erase (std::unique (points.begin (), points.end ()), points.end ());
+  sortUnique (points);
   return points;
 }
 
@@ -256,17 +245,6 @@ BlockSearch::looked (const Eigen::Vector3d& centre, double radius)
     return;
   const std::lock_guard<std::mutex> lock (mutex_);
   missing_.push_back ({centre, radius * ENLARGED * ENLARGED});
-}
-
-std::size_t
-chooseBlocks (std::size_t points, int wanted, const RunContext& run)
-{
-  if (wanted > 0)
-    return static_cast<std::size_t> (wanted);
-  if (points <= 2 * BLOCK)
-    return 1;
-  const auto at_once = static_cast<std::size_t> (run.threads ());
-  return (points / BLOCK + at_once) / at_once * at_once;
 }
 
 } // namespace pcl::floater

@@ -85,9 +85,6 @@ public:
   PointBlock cut (std::size_t block, const std::vector<Ball>& balls, double widths = 1.0) const;
 
 private:
-  BlockCutter (const std::vector<Eigen::Vector3d>& positions,
-               const std::shared_ptr<const std::vector<Box>>& buckets, std::size_t blocks);
-
   // Consecutive buckets.
   struct Buckets
   {
@@ -104,7 +101,7 @@ private:
 
   std::size_t points_;
   std::vector<Box> groups_;
-  std::size_t blocks_;
+  std::size_t blocks_ = 1;
   ReadBuckets read_buckets_;
   Read read_;
 };
@@ -119,10 +116,6 @@ public:
   BlockSearch (const BlockCutter& cutter, std::size_t block, const RunContext& run,
                double widths = 1.0);
   ~BlockSearch () override = default;
-  BlockSearch (const BlockSearch&) = delete;
-  BlockSearch& operator= (const BlockSearch&) = delete;
-  BlockSearch (BlockSearch&&) = delete;
-  BlockSearch& operator= (BlockSearch&&) = delete;
 
   /// Block and tree change when the block is widened. The first call of tree () makes it and is for
   /// one thread; then any number of threads may use it.
@@ -161,11 +154,5 @@ private:
   std::vector<Ball> missing_;
   std::size_t asked_ = 0; // of them when hasLeft () was last asked
 };
-
-/// Number of blocks for a cloud: one up to 262144 points, otherwise blocks of at most 131072
-/// points, the same number for every thread.
-/// \param wanted 0: automatic
-std::size_t
-chooseBlocks (std::size_t points, int wanted, const RunContext& run);
 
 } // namespace pcl::floater

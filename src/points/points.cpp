@@ -3,6 +3,7 @@
 #include "points/points.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "points/hilbert_curve.h"
 
@@ -10,10 +11,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
+// Points of a piece of the cloud, which stays in memory during random access, up to 100 MB: the
+// others may be in a mapped file.
+constexpr std::size_t PART = std::size_t{1} << 22U;
+
 // Equal but for rounding, as where sines and cosines close a circle: in multiples of 2e-16, which is
 // the precision of a coordinate of 1. Near the origin, numbers differ by less.
 bool
@@ -69,27 +75,91 @@ isLineSeenFromWithin (const std::vector<Eigen::Vector3d>& positions)
   return 4 * beside < positions.size ();
 }
 
+// A row of the input, and the place of its position along the curve.
+struct Key
+{
+  std::uint64_t code;
+  Index row;
+};
+
+// Sorts keys that all differ. Merges, so that other threads and cancellation have their turn.
+template <typename IsLess>
+void
+sortKeys (Key* first, Key* last, const IsLess& isLess, const RunContext& run)
+{
+  constexpr std::ptrdiff_t SORTED_AT_ONCE = 16384;
+  if (last - first <= SORTED_AT_ONCE) {
+    run.poll ();
+    std::sort (first, last, isLess);
+    return;
+  }
+  Key* const middle = first + (last - first) / 2;
+  const int others = run.threads () / 2;
+  const RunContext share = run.withThreads (std::max (1, run.threads () - others));
+  parallelTasks (others > 0 ? run.withThreads (2) : run, 2, [&] (std::size_t half) {
+    sortKeys (half == 0 ? first : middle, half == 0 ? middle : last, isLess,
+              half == 0 ? share : run.withThreads (std::max (1, others)));
+  });
+  std::inplace_merge (first, middle, last, isLess);
+}
+
+// Takes the finite positions along the Hilbert curve in the frame of the points, then along the curve
+// in each cell, then by coordinates; of equal positions, the smallest cloud index first.
+void
+takeAlongCurve (const std::vector<Eigen::Vector3d>& positions,
+                const std::vector<Index>& cloud_index, const RunContext& run, Points& points)
+{
+  const auto scaled = [&] (Index row) -> Eigen::Vector3d {
+    return (positions[row] - points.centre) / points.scale;
+  };
+  std::vector<Key> keys;
+  keys.reserve (positions.size ());
+  for (Index row = 0; row < positions.size (); ++row)
+    if (positions[row].allFinite ())
+      keys.push_back ({0, row});
+  parallelRanges (run, keys.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      keys[i].code = hilbertCode (scaled (keys[i].row));
+  });
+  const auto isLess = [&] (const Key& one, const Key& other) {
+    if (one.code != other.code)
+      return one.code < other.code;
+    const Eigen::Vector3d a = scaled (one.row), b = scaled (other.row);
+    if (a == b)
+      return cloud_index[one.row] < cloud_index[other.row];
+    const std::uint64_t code_of_a = hilbertCodeInCell (a), code_of_b = hilbertCodeInCell (b);
+    if (code_of_a != code_of_b)
+      return code_of_a < code_of_b;
+    return std::lexicographical_compare (a.begin (), a.end (), b.begin (), b.end ());
+  };
+  sortKeys (keys.data (), keys.data () + keys.size (), isLess, run);
+  points.positions.resize (keys.size ());
+  points.cloud_index.resize (keys.size ());
+  for (std::size_t first = 0; first < positions.size (); first += PART)
+    for (std::size_t p = 0; p < keys.size (); ++p)
+      if (const Index row = keys[p].row; row >= first && row - first < PART) {
+        points.positions[p] = scaled (row);
+        points.cloud_index[p] = cloud_index[row];
+      }
+}
+
 // Removes the points that stand on removed ones, and renumbers the others.
 void
-removeStacked (StackedPoints& stacked, const std::vector<Index>& removed, std::size_t points_left,
+removeStacked (StackedPoints& stacked, const std::vector<Index>& removed,
                std::vector<Index>& cloud_indices)
 {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < stacked.of.size (); ++i) {
+  std::vector<Index> gone;
+  for (Index i = 0; i < stacked.of.size (); ++i) {
     const auto place = std::lower_bound (removed.begin (), removed.end (), stacked.of[i]);
     if (place != removed.end () && *place == stacked.of[i]) {
+      gone.push_back (i);
       cloud_indices.push_back (stacked.cloud_index[i]);
-      continue;
     }
-    stacked.positions[kept] = stacked.positions[i];
-    stacked.cloud_index[kept] = stacked.cloud_index[i];
-    stacked.of[kept] = stacked.of[i] - static_cast<Index> (place - removed.begin ());
-    ++kept;
+    stacked.of[i] -= static_cast<Index> (place - removed.begin ());
   }
-  stacked.positions.resize (kept);
-  stacked.cloud_index.resize (kept);
-  stacked.of.resize (kept);
-  stacked.own.resize (points_left);
+  eraseRows (stacked.positions, gone);
+  eraseRows (stacked.cloud_index, gone);
+  eraseRows (stacked.of, gone);
 }
 
 } // namespace
@@ -115,9 +185,7 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
       (box.max () - points.centre).cwiseMax (points.centre - box.min ());
   const double diagonal = 2.0 * half_size.stableNorm ();
   points.scale = diagonal > 0.0 ? diagonal : 1.0;
-  CurveOrder order = sortAlongCurve (positions, cloud_index, points.centre, points.scale, run);
-  points.positions = std::move (order.positions);
-  points.cloud_index = std::move (order.cloud_index);
+  takeAlongCurve (positions, cloud_index, run, points);
   leaveDuplicatesOut (points);
   return points;
 }
@@ -125,9 +193,6 @@ makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Ind
 std::vector<Eigen::Vector3f>
 normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points)
 {
-  // One piece of the cloud at a time, which stays in memory during random access: the others may be
-  // in a mapped file.
-  constexpr std::size_t PART = std::size_t{1} << 22U; // 50 MB
   std::vector<Eigen::Vector3f> of_points (normals.empty () ? 0 : points.size ());
   for (std::size_t first = 0; first < normals.size (); first += PART)
     for (std::size_t p = 0; p < of_points.size (); ++p) {
@@ -168,34 +233,21 @@ std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed)
 {
   std::vector<Index> cloud_indices;
-  Eigen::AlignedBox3d box;
-  std::size_t kept = 0;
-  for (Index p = 0; p < points.size (); ++p) {
-    if (cloud_indices.size () < removed.size () && removed[cloud_indices.size ()] == p) {
-      cloud_indices.push_back (points.cloud_index[p]);
-      continue;
-    }
-    box.extend (points.positions[p]);
-    points.positions[kept] = points.positions[p];
-    points.cloud_index[kept] = points.cloud_index[p];
-    for (std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
-      if (!normals->empty ())
-        (*normals)[kept] = (*normals)[p];
-    if (!points.stacked.own.empty ())
-      points.stacked.own[kept] = points.stacked.own[p];
-    ++kept;
-  }
-  points.positions.resize (kept);
-  points.cloud_index.resize (kept);
-  if (!points.stacked.of.empty ())
-    removeStacked (points.stacked, removed, kept, cloud_indices);
-  for (std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
-    if (!normals->empty ())
-      normals->resize (kept);
+  for (const Index p : removed)
+    cloud_indices.push_back (points.cloud_index[p]);
+  removeStacked (points.stacked, removed, cloud_indices);
   std::sort (cloud_indices.begin (), cloud_indices.end ());
+  for (auto* positions : {&points.positions, &points.stacked.own})
+    eraseRows (*positions, removed);
+  for (auto* normals : {&points.normals, &points.facing_normals})
+    eraseRows (*normals, removed);
+  eraseRows (points.cloud_index, removed);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : points.positions)
+    box.extend (position);
 
   // By a power of two, which is exact: distances compare as before.
-  const double diagonal = kept > 0 ? box.diagonal ().norm () : 0.0;
+  const double diagonal = box.isEmpty () ? 0.0 : box.diagonal ().norm ();
   if (diagonal > 0.0) {
     int exponent = 0;
     std::frexp (diagonal, &exponent);
@@ -215,14 +267,13 @@ removePoints (Points& points, const std::vector<Index>& removed)
 void
 setAside (Points& points, const std::vector<Index>& kept, const RunContext& run)
 {
+  std::vector<Index> aside (points.size ());
+  std::iota (aside.begin (), aside.end (), Index{0});
+  eraseRows (aside, kept);
   StackedPoints stacked;
-  std::vector<Index> aside;
-  for (Index p = 0; p < points.size (); ++p)
-    if (aside.size () + kept.size () == p || kept[p - aside.size ()] != p) {
-      aside.push_back (p);
-      stacked.positions.push_back (points.positions[p]);
-      stacked.cloud_index.push_back (points.cloud_index[p]);
-    }
+  stacked.positions = positionsOf (points.positions, aside);
+  for (const Index p : aside)
+    stacked.cloud_index.push_back (points.cloud_index[p]);
   const double scale = points.scale;
   removePoints (points, aside);
   for (Eigen::Vector3d& position : stacked.positions)

@@ -251,14 +251,6 @@ findingName (FindingId id)
   return i < FINDINGS ? SENTENCES[i].name : "unknown";
 }
 
-const char*
-severityName (Severity severity)
-{
-  static constexpr const char* NAMES[] = {"note", "doubt", "flaw"};
-  const auto i = static_cast<std::size_t> (severity);
-  return i < sizeof NAMES / sizeof *NAMES ? NAMES[i] : "unknown";
-}
-
 std::string
 sentenceOf (const Finding& finding)
 {

@@ -25,7 +25,6 @@ rounded (double value);
 
 /// Adds a finding to the report.
 /// \param at      points at its places
-/// \param numbers of its sentence
 template <typename... Numbers>
 void
 addFinding (Report& report, FindingId id, const Points& points, std::initializer_list<Index> at,

@@ -6,26 +6,12 @@
 #include "report/report_mesh.h"
 
 #include <algorithm>
-#include <iterator>
 #include <sstream>
 
 namespace pcl::floater {
 namespace {
 // Share of coinciding points above which a warning is given. Used for the warning only.
 constexpr std::size_t MANY_COINCIDE = 100;
-
-void
-addOutliers (const std::vector<Index>& outliers, FindingId what, Report& report)
-{
-  if (outliers.empty ())
-    return;
-  addFinding (report, what, {}, {}, outliers.size (), outliers.front ());
-  std::vector<Index> all;
-  std::merge (report.outliers.begin (), report.outliers.end (), outliers.begin (), outliers.end (),
-              std::back_inserter (all));
-  report.outliers = std::move (all);
-  report.statistics.outlier_points = report.outliers.size ();
-}
 
 // Viewpoint in the frame of the cloud, or the direction to a far sensor.
 Eigen::Vector3d
@@ -67,23 +53,20 @@ tooFarAway (Index cloud_index, const Eigen::Vector3d& position)
 }
 
 void
-reportGrossOutliers (const std::vector<Index>& outliers, Report& report)
+reportOutliers (const std::vector<Index>& outliers, FindingId what, Report& report)
 {
-  addOutliers (outliers, FindingId::GROSS_OUTLIERS, report);
-}
-
-void
-reportOutliers (const std::vector<Index>& outliers, std::size_t working_points, Report& report)
-{
-  report.statistics.working_points = working_points;
-  addOutliers (outliers, FindingId::OUTLIERS, report);
+  if (outliers.empty ())
+    return;
+  addFinding (report, what, {}, {}, outliers.size (), outliers.front ());
+  report.outliers.insert (report.outliers.end (), outliers.begin (), outliers.end ());
+  std::sort (report.outliers.begin (), report.outliers.end ());
+  report.statistics.outlier_points = report.outliers.size ();
 }
 
 void
 reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_unasked,
                Report& report)
 {
-  report.scatter.clear ();
   for (const Index p : scatter)
     report.scatter.push_back (points.cloud_index[p]);
   for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
@@ -143,14 +126,9 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
   report.is_far_view = viewpoint.is_far;
   report.is_view_by_pixels = surface.is_by_pixels;
   Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = inCloud (points, viewpoint);
+  report.statistics.holes_filled = surface.holes_filled;
   report.statistics.view_steps = surface.steps;
   report.statistics.view_gaps = surface.gaps;
-}
-
-void
-reportDoubtfulView (const Points& points, std::size_t unused, Report& report)
-{
-  addFinding (report, FindingId::DOUBTFUL_VIEWPOINT, points, {}, unused, points.size ());
 }
 
 void
@@ -165,11 +143,11 @@ void
 reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report)
 {
   std::vector<Index> outliers;
-  outliers.reserve (unused.size ());
   for (const Index p : unused)
     outliers.push_back (points.cloud_index[p]);
   std::sort (outliers.begin (), outliers.end ());
-  reportOutliers (outliers, points.size () - unused.size (), report);
+  report.statistics.working_points = points.size () - unused.size ();
+  reportOutliers (outliers, FindingId::OUTLIERS, report);
 }
 
 // Reports which rule decided the front of each part of the mesh, and with what confidence.
@@ -199,19 +177,11 @@ struct Pieces
 FindingId
 guessOf (Facing wanted)
 {
-  switch (wanted) {
-  case Facing::OUTWARDS:
-  case Facing::INWARDS:
+  if (wanted == Facing::OUTWARDS || wanted == Facing::INWARDS)
     return FindingId::GUESSED_OUTSIDE;
-  case Facing::UP:
+  if (wanted == Facing::UP)
     return FindingId::GUESSED_UP;
-  case Facing::VIEWPOINT:
-    return FindingId::GUESSED_TOWARDS_VIEW;
-  case Facing::AUTO:
-  case Facing::NORMALS:
-    break;
-  }
-  return FindingId::GUESSED_FRONT;
+  return wanted == Facing::VIEWPOINT ? FindingId::GUESSED_TOWARDS_VIEW : FindingId::GUESSED_FRONT;
 }
 
 FindingId

@@ -16,14 +16,6 @@ constexpr double SMALL_HOLE = 6.0;     // spacings: wider holes may belong to th
 constexpr std::size_t FEW_POINTS = 50; // points of a small component, while ...
 constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
 
-// A loop with far fewer points than the border of a round disc of this size, 3.5 sqrt (n), and not
-// wide.
-bool
-isSmallHole (const LoopSummary& loop, std::size_t component_points)
-{
-  return loop.width_spacings < SMALL_HOLE && loop.points * loop.points < component_points;
-}
-
 void
 findShape (const Points& points, const MeshExamination& found, Report& report)
 {
@@ -59,10 +51,15 @@ findHoles (const Points& points, const MeshExamination& found, const Options& op
       options.trimming.maximum_edge_length > 0.0 || options.trimming.maximum_edge_ratio > 0.0 ||
       options.trimming.open_self_intersections)
     return;
+  // Small: not wide, and of far fewer points than the border of a round disc of this size, which has
+  // 3.5 sqrt (n).
+  const auto isSmall = [] (const LoopSummary& loop, std::size_t component_points) {
+    return loop.width_spacings < SMALL_HOLE && loop.points * loop.points < component_points;
+  };
   std::size_t holes = 0, largest = 0;
   for (std::size_t i = found.loops.size (); i-- > 0;)
     if (close_all ||
-        isSmallHole (found.check.loops[i], found.component_points[found.loops[i].component])) {
+        isSmall (found.check.loops[i], found.component_points[found.loops[i].component])) {
       ++holes;
       largest = i;
     }
@@ -104,18 +101,6 @@ reportUnused (const Points& points, const MeshExamination& found, Report& report
     return points.cloud_index[p] == report.unused.front ();
   });
   addFinding (report, FindingId::UNUSED_POINTS, points, {*first}, report.unused.size ());
-}
-
-void
-reportBoundary (const Points& points, const Boundary& boundary, Report& report)
-{
-  for (Index p : boundary.loop)
-    report.loop.push_back (points.cloud_index[p]);
-  report.statistics.boundary_candidates = boundary.candidates;
-  report.statistics.loop_points = boundary.loop.size ();
-  if (boundary.largest_step > LONG_STEP)
-    addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
-                boundary.largest_step);
 }
 
 void
@@ -166,7 +151,14 @@ void
 reportDisc (const Points& points, const Disc& disc, Report& report)
 {
   const Parameterization& parameterization = disc.parameterization;
-  reportBoundary (points, disc.boundary, report);
+  const Boundary& boundary = disc.boundary;
+  for (const Index p : boundary.loop)
+    report.loop.push_back (points.cloud_index[p]);
+  report.statistics.boundary_candidates = boundary.candidates;
+  report.statistics.loop_points = boundary.loop.size ();
+  if (boundary.largest_step > LONG_STEP)
+    addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
+                boundary.largest_step);
   reportSystem (parameterization, report.statistics);
   report.statistics.levels = disc.levels;
   report.statistics.relinked_points = parameterization.relinked;
@@ -185,15 +177,10 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
 }
 
 void
-reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, Report& report)
-{
-  if (!seam.empty ())
-    addFinding (report, FindingId::ONE_SIDED, points, {seam.front ()[0]}, seam.size ());
-}
-
-void
 reportLoops (const Points& points, const Surface& surface, Report& report)
 {
+  if (const std::vector<Triangle>& seam = surface.orientation_seam; !seam.empty ())
+    addFinding (report, FindingId::ONE_SIDED, points, {seam.front ()[0]}, seam.size ());
   report.statistics.holes_filled = surface.holes_filled;
   std::size_t too_deep = 0;
   const BoundaryLoop* widest = nullptr;
@@ -223,15 +210,6 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
   if (too_deep > 0)
     addFinding (report, FindingId::DEEP_HOLES, points, {widest->points.front ()}, too_deep,
                 widest->width * points.scale, widest->width / widest->spacing);
-}
-
-std::vector<Triangle>
-inCloud (const Points& points, std::vector<Triangle> triangles)
-{
-  for (Triangle& triangle : triangles)
-    for (Index& p : triangle)
-      p = points.cloud_index[p];
-  return triangles;
 }
 
 Problem

@@ -20,13 +20,8 @@ namespace pcl::floater {
 void
 reportDisc (const Points& points, const Disc& disc, Report& report);
 
-/// Warns if a surface was cut open because it seems one-sided.
-/// \param seam triangles left out for that
-void
-reportOrientationSeam (const Points& points, const std::vector<Triangle>& seam, Report& report);
-
 /// Reports filled holes and uncertain decisions. Warns of loops that stay open because they are too
-/// deep to fill.
+/// deep to fill, and if the surface was cut open because it seems one-sided.
 void
 reportLoops (const Points& points, const Surface& surface, Report& report);
 
@@ -34,10 +29,6 @@ reportLoops (const Points& points, const Surface& surface, Report& report);
 /// the requested rule did not decide.
 void
 reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report);
-
-/// Converts corners from points to cloud indices.
-std::vector<Triangle>
-inCloud (const Points& points, std::vector<Triangle> triangles);
 
 /// Reports the result of checkMesh (): figures, the reason if no disc was made, points in no
 /// triangle (except those listed as outliers), and the longest loop if there is none yet. Warns,

@@ -20,13 +20,13 @@ struct Measure
 {
   double share;
   VerdictBounds bounds;
-  std::function<Reason ()> reason;
+  Reason reason;
 
   Quality quality () const
   {
-    return share >= bounds.poor  ? Quality::POOR
-           : share > bounds.good ? Quality::USABLE
-                                 : Quality::GOOD;
+    if (share >= bounds.poor)
+      return Quality::POOR;
+    return share > bounds.good ? Quality::USABLE : Quality::GOOD;
   }
 };
 
@@ -39,19 +39,18 @@ percent (double share)
   return rounded (std::round (digits * value) / digits) + " %";
 }
 
-double
-numberOf (const Report& report, FindingId id)
+const Finding*
+find (const Report& report, FindingId id)
 {
   const auto found = std::find_if (report.findings.begin (), report.findings.end (),
                                    [id] (const Finding& finding) { return finding.id == id; });
-  return found == report.findings.end () || found->numbers.empty () ? 0.0 : found->numbers[0];
+  return found == report.findings.end () ? nullptr : &*found;
 }
 
 bool
 has (const Report& report, FindingId id)
 {
-  return std::any_of (report.findings.begin (), report.findings.end (),
-                      [id] (const Finding& finding) { return finding.id == id; });
+  return find (report, id) != nullptr;
 }
 
 Reason
@@ -109,65 +108,48 @@ measure (const Report& report, const VerdictLimits& limits)
   const bool is_guess =
       has (report, FindingId::GUESSED_OUTSIDE) || has (report, FindingId::GUESSED_UP) ||
       has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
+  const Finding* const long_edges = find (report, FindingId::LONG_EDGES);
+  const Reason why = whyCrossing (report, points, limits);
+  const std::string crossing_pairs =
+      (has_more ? "more than " : "") +
+      counted (pairs, "pair of triangles crosses", "pairs of triangles cross") + ", one for each " +
+      rounded (std::ceil (1.0 / crossing)) + " triangles, since " + why.cause;
   return {
-      {crossing, limits.crossing,
-       [&report, crossing, pairs, has_more, points, limits] {
-         const Reason why = whyCrossing (report, points, limits);
-         return Reason{
-             (has_more ? "more than " : "") +
-                 counted (pairs, "pair of triangles crosses", "pairs of triangles cross") +
-                 ", one for each " + rounded (std::ceil (1.0 / crossing)) + " triangles, since " +
-                 why.cause,
-             why.remedy};
-       }},
-      {area, limits.area,
-       [area] {
-         return Reason{percent (area) +
-                           " of the area is in 1 % of the triangles, since far or sparse points "
-                           "are joined to the rest",
-                       "cut off triangles with long edges: --max-edge-ratio 8"};
-       }},
-      {unused, limits.unused,
-       [unused, &report] {
-         return Reason{percent (unused) + " of the points are in no triangle",
-                       report.is_view ? "give the place of the sensor, or --viewpoint none"
-                                      : "look at them (points of Report::unused): the sampling is "
-                                        "too thin there, or they are no surface"};
-       }},
-      {scatter, limits.scatter,
-       [scatter] {
-         return Reason{percent (scatter) +
-                           " of the points lie on no surface, such as leaves or far background",
-                       "cut them out of the cloud, or keep them with --scatter keep"};
-       }},
-      {outliers, limits.outliers,
-       [outliers, &report] {
-         return Reason{
-             percent (outliers) + " of the points lie off any surface" +
-                 (report.is_view ? ", alone between rays that miss it" : "") +
-                 ", and were left out",
-             "look at them (points of Report::outliers); --remove-outliers off keeps them"};
-       }},
-      {share (statistics.projected_points, points), limits.noise,
-       [&statistics] { return noisy (statistics); }},
-      {numberOf (report, FindingId::LONG_EDGES) / triangles, limits.long_edges,
-       [] {
-         return Reason{"edges inside are much longer than the spacing: the sampling is too sparse "
-                       "there, or a gap was filled",
-                       "more points there, or --max-edge-ratio 8"};
-       }},
+      {crossing, limits.crossing, {crossing_pairs, why.remedy}},
+      {area,
+       limits.area,
+       {percent (area) + " of the area is in 1 % of the triangles, since far or sparse points are "
+                         "joined to the rest",
+        "cut off triangles with long edges: --max-edge-ratio 8"}},
+      {unused,
+       limits.unused,
+       {percent (unused) + " of the points are in no triangle",
+        report.is_view ? "give the place of the sensor, or --viewpoint none"
+                       : "look at them (points of Report::unused): the sampling is too thin there, "
+                         "or they are no surface"}},
+      {scatter,
+       limits.scatter,
+       {percent (scatter) + " of the points lie on no surface, such as leaves or far background",
+        "cut them out of the cloud, or keep them with --scatter keep"}},
+      {outliers,
+       limits.outliers,
+       {percent (outliers) + " of the points lie off any surface" +
+            (report.is_view ? ", alone between rays that miss it" : "") + ", and were left out",
+        "look at them (points of Report::outliers); --remove-outliers off keeps them"}},
+      {share (statistics.projected_points, points), limits.noise, noisy (statistics)},
+      {(long_edges != nullptr ? long_edges->numbers.at (0) : 0.0) / triangles,
+       limits.long_edges,
+       {"edges inside are much longer than the spacing: the sampling is too sparse there, or a gap "
+        "was filled",
+        "more points there, or --max-edge-ratio 8"}},
       {has (report, FindingId::ONE_SIDED) ? 1.0 : 0.0,
        {0.5, 2.0},
-       [] {
-         return Reason{"the surface was cut open, since it seems one-sided",
-                       "look at the cut: thin sheets may be joined there"};
-       }},
+       {"the surface was cut open, since it seems one-sided",
+        "look at the cut: thin sheets may be joined there"}},
       {is_guess ? 1.0 : 0.0,
        {0.5, 2.0},
-       [] {
-         return Reason{"which side is the front is a guess",
-                       "give the place of the sensor (--viewpoint), or choose --facing"};
-       }},
+       {"which side is the front is a guess",
+        "give the place of the sensor (--viewpoint), or choose --facing"}},
   };
 }
 
@@ -187,9 +169,8 @@ judge (const Report& report, const VerdictLimits& limits)
       continue;
     verdict.value = quality;
     excess = beyond;
-    const Reason reason = one.reason ();
-    verdict.cause = reason.cause;
-    verdict.remedy = reason.remedy;
+    verdict.cause = one.reason.cause;
+    verdict.remedy = one.reason.remedy;
   }
   return verdict;
 }
@@ -210,14 +191,6 @@ largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
   const double of_largest =
       std::accumulate (areas.begin (), areas.begin () + static_cast<std::ptrdiff_t> (largest), 0.0);
   return all > 0.0 ? of_largest / all : 0.0;
-}
-
-const char*
-qualityName (Quality quality)
-{
-  static constexpr const char* NAMES[] = {"none", "good", "usable", "poor"};
-  const auto i = static_cast<std::size_t> (quality);
-  return i < sizeof NAMES / sizeof *NAMES ? NAMES[i] : "unknown";
 }
 
 } // namespace pcl::floater

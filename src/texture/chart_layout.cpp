@@ -125,9 +125,9 @@ solveWeights (const ChartMesh& chart, const Weights& weights,
   const LinearSystem system =
       assembleSystem (weights.neighbors, weights.values, chart.loop, loop_uv, all);
   const Solution solution = solve (system, {}, run);
-  if (solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
+  if (solution.problem.status == RunStatus::OUT_OF_MEMORY)
     throw std::bad_alloc ();
-  if (solution.outcome != Solution::Outcome::OK)
+  if (solution.problem)
     return {};
   std::vector<Eigen::Vector2d> uv (chart.positions.size ());
   for (std::size_t i = 0; i < chart.loop.size (); ++i)

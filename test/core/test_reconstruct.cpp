@@ -4,7 +4,7 @@
 #include <pcl/surface/floater/reconstruct.h>
 #include <pcl/surface/floater/texture_coordinates.h>
 
-#include "options/choices.h"
+#include "options/option_rows.h"
 #include "points/point_samples.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // Status and message of runs that fail, the stages of a run, and its callbacks.
 #include <pcl/surface/floater/reconstruct.h>
 
-#include "core/index_limit.h"
+#include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "points/point_samples.h"
 

@@ -5,12 +5,12 @@
 #include "atomic_file.h"
 #include "format.h"
 #include "input/input.h"
-#include "known_stages.h"
 #include "mesh_output.h"
 #include "mesh_writer.h"
 #include "options/check_options.h"
 #include "options/option_rows.h"
 #include "prepared_input.h"
+#include "reconstruct.h"
 #include "report/report_cloud.h"
 #include "report_json.h"
 #include "run_report.h"
@@ -61,7 +61,7 @@ public:
     Points points = readPoints (context_.store, POINTS, context_.plan, gross_outliers);
     report.statistics.cloud_points = context_.plan.cloudSize ();
     report.statistics.selected_points = context_.plan.selected_points;
-    reportGrossOutliers (gross_outliers, report);
+    reportOutliers (gross_outliers, FindingId::GROSS_OUTLIERS, report);
     reportPoints (points, report);
     return points;
   }
@@ -257,7 +257,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   Options options = line.options;
   options.threads = job.join_threads;
   Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -= plan.shift ();
-  Result result = reconstruct (std::move (input), options, {}, stages);
+  Result result = reconstruct (std::move (input), options, {}, &stages);
   Report& report = result.report;
   RunFigures figures = plan.figures;
   figures.reconstruct_seconds = secondsSince (start);

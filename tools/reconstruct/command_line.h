@@ -5,7 +5,7 @@
 
 #include "cloud_reader.h"
 #include "mesh_writer.h"
-#include "options/choices.h"
+#include "options/option_rows.h"
 
 #include <Eigen/Core>
 #include <pcl/surface/floater/options.h>

@@ -4,9 +4,6 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "floater/boundary/neighbor_graph.h"
-#include "floater/boundary/spanning_tree_loop.h"
-#include "floater/boundary/two_segment_loop.h"
 #include "local/planar_star.h"
 
 #include <algorithm>
@@ -14,34 +11,6 @@
 #include <limits>
 
 namespace pcl::floater {
-std::vector<Index>
-openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                    const std::vector<Eigen::Vector3f>& normals, double opening_angle,
-                    const RunContext& run)
-{
-  std::vector<std::uint8_t> wide (positions.size (), 0);
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    PlanarStar star;
-    std::vector<PlanarNeighbor> planar;
-    for (std::size_t p = first; p < last; ++p) {
-      const TangentFrame frame (normals[p].cast<double> ());
-      planar.clear ();
-      for (Index q : neighbors.row (p)) {
-        const Eigen::Vector2d projected = frame.project (positions[q] - positions[p]);
-        if (projected != Eigen::Vector2d::Zero ())
-          planar.push_back ({projected, q});
-      }
-      star.make (planar);
-      wide[p] = star.openingAngle () > opening_angle ? 1 : 0;
-    }
-  });
-  std::vector<Index> points;
-  for (std::size_t p = 0; p < wide.size (); ++p)
-    if (wide[p] != 0)
-      points.push_back (static_cast<Index> (p));
-  return points;
-}
-
 namespace {
 // Circumradius of the triangle of the origin, a and b: the product of its sides over four times its
 // area.
@@ -146,6 +115,37 @@ fromUser (const Points& points, const std::vector<Index>& user_loop)
     return invalid ("has fewer than 3 points");
   boundary.candidates = boundary.loop.size ();
   return boundary;
+}
+
+// Points whose widest sector without a neighbour exceeds the opening angle, ascending. Neighbours
+// are projected on the tangent plane of the point. O(n k log k).
+// \param opening_angle in radians
+std::vector<Index>
+openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                    const std::vector<Eigen::Vector3f>& normals, double opening_angle,
+                    const RunContext& run)
+{
+  std::vector<std::uint8_t> wide (positions.size (), 0);
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+    PlanarStar star;
+    std::vector<PlanarNeighbor> planar;
+    for (std::size_t p = first; p < last; ++p) {
+      const TangentFrame frame (normals[p].cast<double> ());
+      planar.clear ();
+      for (Index q : neighbors.row (p)) {
+        const Eigen::Vector2d projected = frame.project (positions[q] - positions[p]);
+        if (projected != Eigen::Vector2d::Zero ())
+          planar.push_back ({projected, q});
+      }
+      star.make (planar);
+      wide[p] = star.openingAngle () > opening_angle ? 1 : 0;
+    }
+  });
+  std::vector<Index> points;
+  for (std::size_t p = 0; p < wide.size (); ++p)
+    if (wide[p] != 0)
+      points.push_back (static_cast<Index> (p));
+  return points;
 }
 
 Boundary

@@ -71,17 +71,6 @@ struct LoopLimits
   std::size_t few_points = 100;
 };
 
-/// Points whose widest sector without a neighbour exceeds the opening angle, ascending. Neighbours
-/// are projected on the tangent plane of the point. O(n k log k).
-/// \param positions     per point
-/// \param neighbors     k nearest neighbours of each point
-/// \param normals       per point, unit length, of any sign
-/// \param opening_angle in radians
-std::vector<Index>
-openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                    const std::vector<Eigen::Vector3f>& normals, double opening_angle,
-                    const RunContext& run);
-
 /// A run of consecutive sectors of one star without a triangle, or with too wide a circumcircle.
 /// The neighbours at its two ends are the next boundary points from this one.
 struct Gap
@@ -94,7 +83,6 @@ struct Gap
 /// The gaps of all stars, ordered by point. A star without any triangle has one gap, from its
 /// nearest neighbour to itself. O(entries).
 /// \param stars              with their offsets
-/// \param spacing            per point: local spacing, in the unit of the offsets
 /// \param circumradius_ratio a triangle counts as missing if its circumradius exceeds this many
 ///                           times the mean local spacing of its corners
 std::vector<Gap>
@@ -110,6 +98,71 @@ struct Boundary
   Index longest_from = NONE;  ///< point where that edge begins
   Problem problem;            ///< NO_BOUNDARY or INVALID_LOOP
 };
+
+/// Finds the longest boundary loop. This method is not in TW 385.
+///
+/// Candidates are the points with a gap in their star (see findGaps ()). An edge between them is
+/// cheapest if each end is at the end of the other's gap, dearer if only one is, and dearest
+/// between candidates that are only near each other. A minimum spanning tree then runs along the
+/// borders. Of all other edges, the one that closes the longest cycle gives the loop; spurs and
+/// clusters of false candidates close short cycles only. The loop is then refined. The longest loop
+/// without a large step over all circumradius ratios of the limits wins.
+///
+/// Weakness: two borders that come within about 3 spacings of each other in more than one place
+/// may be joined, and a border stays open where its steps exceed LoopLimits::longest_edge.
+/// O(n + c log c) for c candidates.
+/// \param stars   with their offsets
+/// \param spacing per point: local spacing, in the unit of the positions
+/// \return loop, candidates and steps; the loop is empty if none was found. There is no problem.
+Boundary
+spanningTreeLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+                  const std::vector<float>& spacing, const RunContext& run,
+                  const LoopLimits& limits = {});
+
+/// Clusters by region growing, each from the densest untaken point.
+/// O(n log n) for n points along curves.
+/// \param boundary_points ascending
+/// \param tolerance       largest growing distance and radius in which density is counted, in the
+///                        unit of the positions (xi D in TW 385)
+/// \param k               nearest boundary points that are appended at a time
+/// \return disjoint clusters of points, ascending in each; the largest cluster first, of equally
+///         large ones that with the smallest point
+std::vector<std::vector<Index>>
+clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
+                       const std::vector<Index>& boundary_points, double tolerance, int k,
+                       const RunContext& run);
+
+/// Splits a cluster into two connected segments with common ends, orders each of them between its
+/// ends by the univariate Floater parameterization (reciprocal distance weights), and joins them to
+/// a loop. O(n log n).
+///
+/// The choices that TW 385 leaves open, or that differ here: the seed is the first point of the
+/// cluster (TW 385: a random one); a segment first takes the point nearest to the seed along the
+/// segment; neighbourhoods are symmetric; the parameterization uses the number of neighbours with
+/// the shortest order (LoopLimits::univariate_k); gaps wider than any neighbourhood are bridged
+/// where they are narrowest.
+///
+/// Weakness: where the cluster is a thick band, or the border turns back on itself within a
+/// neighbourhood, the order is not that along the border.
+/// \param cluster   distinct points, in any order
+/// \return every point of the cluster once, in order; empty if the cluster has fewer than 4 points,
+///         if two of them coincide, or if the system of a segment is singular
+std::vector<Index>
+twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster,
+                const RunContext& run, const LoopLimits& limits = {});
+
+/// Undoes crossings by 2-opt in a window, and inserts candidates that lie on or beyond an edge of
+/// the loop where the detour is small. Otherwise such a point would be an interior point outside of
+/// the boundary, and the surface would fold there. O(points + c log n) for c candidates and a loop
+/// of n points.
+/// \param stars      with normals, which give the side of the surface
+/// \param spacing    per point: local spacing
+/// \param candidates points that may lie on the boundary, on the loop or not
+/// \param loop       at least 3 points in order
+void
+refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+            const std::vector<float>& spacing, const std::vector<Index>& candidates,
+            std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits = {});
 
 /// The loop in the options, or otherwise the one that their method finds (SPANNING_TREE or
 /// TWO_SEGMENTS; for CONSENSUS see consensus_loop.h). May report INVALID_LOOP; for other problems

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/boundary/spanning_tree_loop.h"
-
 #include "core/disjoint_sets.h"
+#include "core/geometry.h"
 #include "floater/boundary/boundary.h"
-#include "floater/boundary/two_segment_loop.h"
 #include "points/kd_tree.h"
 
 #include <algorithm>
@@ -25,21 +23,16 @@ struct CandidateEdge
   float cost;
 };
 
-// The points that have a gap, numbered.
-struct Candidates
+// The points that have a gap, ascending.
+std::vector<Index>
+pointsOf (const std::vector<Gap>& gaps)
 {
-  std::vector<Index> points;          // ascending
-  std::vector<Index> number_of_point; // NONE if the point is no candidate
-
-  Candidates (const std::vector<Gap>& gaps, std::size_t n) : number_of_point (n, NONE)
-  {
-    for (const Gap& gap : gaps)
-      if (number_of_point[gap.point] == NONE) {
-        number_of_point[gap.point] = static_cast<Index> (points.size ());
-        points.push_back (gap.point);
-      }
-  }
-};
+  std::vector<Index> points;
+  for (const Gap& gap : gaps)
+    if (points.empty () || points.back () != gap.point)
+      points.push_back (gap.point);
+  return points;
+}
 
 // Keeps the cheapest of several edges between the same candidates, and sorts by cost, then by the
 // candidates' numbers.
@@ -63,13 +56,15 @@ sortByCost (std::vector<CandidateEdge>& edges)
 // \return edges by cost
 std::vector<CandidateEdge>
 joinCandidates (const Positions& positions, const std::vector<float>& spacing,
-                const std::vector<Gap>& gaps, const Candidates& candidates, const RunContext& run,
-                const LoopLimits& limits)
+                const std::vector<Gap>& gaps, const std::vector<Index>& candidates,
+                const RunContext& run, const LoopLimits& limits)
 {
+  std::vector<Index> number_of (positions.size (), NONE); // among the candidates
+  for (std::size_t i = 0; i < candidates.size (); ++i)
+    number_of[candidates[i]] = static_cast<Index> (i);
   std::vector<CandidateEdge> edges;
   const auto add = [&] (Index p, Index q, double cost_per_length) {
-    const Index a = candidates.number_of_point[p];
-    const Index b = candidates.number_of_point[q];
+    const Index a = number_of[p], b = number_of[q];
     const double length = (positions[p] - positions[q]).norm ();
     if (a == b || a == NONE || b == NONE ||
         length > limits.longest_edge * 0.5 * (spacing[p] + spacing[q]))
@@ -86,24 +81,20 @@ joinCandidates (const Positions& positions, const std::vector<float>& spacing,
         return true;
     return false;
   };
-  ProgressLoop progress (run, gaps.size () + candidates.points.size ());
+  ProgressLoop progress (run, gaps.size () + candidates.size ());
   for (const Gap& gap : gaps) {
     progress.next ();
     for (const Index q : {gap.first, gap.last})
       add (gap.point, q, sees (q, gap.point) ? limits.mutual_cost : limits.one_sided_cost);
   }
 
-  Positions places;
-  places.reserve (candidates.points.size ());
-  for (Index p : candidates.points)
-    places.push_back (positions[p]);
-  const KdTree tree (places, run);
+  const KdTree tree (positionsOf (positions, candidates), run);
   std::vector<Neighbor> found;
-  for (Index p : candidates.points) {
+  for (Index p : candidates) {
     progress.next ();
     tree.nearest (positions[p], NEAR_CANDIDATES + 1, found); // the candidate itself among them
     for (const Neighbor& neighbor : found)
-      add (p, candidates.points[neighbor.point], 1.0);
+      add (p, candidates[neighbor.point], 1.0);
   }
   sortByCost (edges);
   return edges;
@@ -123,7 +114,7 @@ public:
       : root_distance_ (nodes, 0.0), depth_ (nodes, 0), parent_ (nodes, NONE), jump_ (nodes, NONE)
   {
     DisjointSets trees (nodes);
-    Adjacency adjacent (nodes);
+    std::vector<std::vector<std::pair<Index, float>>> adjacent (nodes); // with lengths
     ProgressLoop progress (run);
     for (const CandidateEdge& edge : edges) {
       progress.next ();
@@ -134,9 +125,30 @@ public:
       adjacent[edge.a].emplace_back (edge.b, edge.length);
       adjacent[edge.b].emplace_back (edge.a, edge.length);
     }
-    for (Index root = 0; root < nodes; ++root)
-      if (parent_[root] == NONE)
-        growTree (root, adjacent, progress);
+    // Parents, depths and distances of each tree.
+    std::vector<Index> stack;
+    for (Index root = 0; root < nodes; ++root) {
+      if (parent_[root] != NONE)
+        continue;
+      stack.push_back (root);
+      parent_[root] = jump_[root] = root;
+      while (!stack.empty ()) {
+        progress.next ();
+        const Index x = stack.back ();
+        stack.pop_back ();
+        for (const auto& [y, length] : adjacent[x]) {
+          if (parent_[y] != NONE)
+            continue;
+          parent_[y] = x;
+          // Two jumps of equal length become one.
+          const Index up = jump_[x];
+          jump_[y] = depth_[x] - depth_[up] == depth_[up] - depth_[jump_[up]] ? jump_[up] : x;
+          depth_[y] = depth_[x] + 1;
+          root_distance_[y] = root_distance_[x] + length;
+          stack.push_back (y);
+        }
+      }
+    }
   }
 
   double pathLength (Index a, Index b) const
@@ -160,31 +172,6 @@ public:
   }
 
 private:
-  using Adjacency = std::vector<std::vector<std::pair<Index, float>>>; // node, length of the edge
-
-  // Sets parents, depths and distances of all nodes that are connected with the root.
-  void growTree (Index root, const Adjacency& adjacent, ProgressLoop& progress)
-  {
-    std::vector<Index> stack{root};
-    parent_[root] = jump_[root] = root;
-    while (!stack.empty ()) {
-      progress.next ();
-      const Index x = stack.back ();
-      stack.pop_back ();
-      for (const auto& [y, length] : adjacent[x]) {
-        if (parent_[y] != NONE)
-          continue;
-        parent_[y] = x;
-        // Two jumps of equal length become one.
-        const Index up = jump_[x];
-        jump_[y] = depth_[x] - depth_[up] == depth_[up] - depth_[jump_[up]] ? jump_[up] : x;
-        depth_[y] = depth_[x] + 1;
-        root_distance_[y] = root_distance_[x] + length;
-        stack.push_back (y);
-      }
-    }
-  }
-
   // The lowest common ancestor of two nodes of one tree.
   Index lowestCommonAncestor (Index a, Index b) const
   {
@@ -205,19 +192,10 @@ private:
   std::vector<Index> parent_, jump_;  // of each node; a root's are itself
 };
 
-double
-perimeter (const std::vector<Index>& loop, const Positions& positions)
-{
-  double length = 0.0;
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    length += (positions[loop[i]] - positions[loop[(i + 1) % loop.size ()]]).norm ();
-  return length;
-}
-
 // The longest cycle that an edge outside of the forest closes, as points; empty if there is none.
 std::vector<Index>
 longestCycle (const SpanningForest& forest, const std::vector<CandidateEdge>& outside,
-              const Candidates& candidates, const RunContext& run)
+              const std::vector<Index>& candidates, const RunContext& run)
 {
   constexpr double ROUNDING =
       1e-9; // smaller differences of length count as ties; the first edge wins
@@ -235,10 +213,8 @@ longestCycle (const SpanningForest& forest, const std::vector<CandidateEdge>& ou
   std::vector<Index> cycle;
   if (closing != nullptr)
     for (Index candidate : forest.path (closing->a, closing->b))
-      cycle.push_back (candidates.points[candidate]);
-  if (cycle.size () < 3)
-    cycle.clear ();
-  return cycle;
+      cycle.push_back (candidates[candidate]);
+  return cycle.size () < 3 ? std::vector<Index>{} : cycle;
 }
 
 Boundary
@@ -247,16 +223,16 @@ findLoop (const Positions& positions, const Stars& stars, const std::vector<floa
 {
   Boundary boundary;
   const std::vector<Gap> gaps = findGaps (stars, spacing, circumradius_ratio, run);
-  const Candidates candidates (gaps, positions.size ());
-  boundary.candidates = candidates.points.size ();
+  const std::vector<Index> candidates = pointsOf (gaps);
+  boundary.candidates = candidates.size ();
   std::vector<CandidateEdge> outside;
-  const SpanningForest forest (candidates.points.size (),
+  const SpanningForest forest (candidates.size (),
                                joinCandidates (positions, spacing, gaps, candidates, run, limits),
                                outside, run);
   boundary.loop = longestCycle (forest, outside, candidates, run);
   if (boundary.loop.empty ())
     return boundary;
-  refineLoop (positions, stars, spacing, candidates.points, boundary.loop, run, limits);
+  refineLoop (positions, stars, spacing, candidates, boundary.loop, run, limits);
   measureSteps (positions, spacing, boundary);
   return boundary;
 }
@@ -273,7 +249,7 @@ spanningTreeLoop (const Positions& positions, const Stars& stars, const std::vec
     Boundary boundary = findLoop (positions, stars, spacing, ratio, run, limits);
     if (boundary.loop.empty () && !best.loop.empty ())
       continue;
-    const double length = perimeter (boundary.loop, positions);
+    const double length = perimeter (positions, boundary.loop);
     const bool is_trusted = boundary.largest_step <= limits.largest_trusted_step;
     const bool is_best_trusted = best.largest_step <= limits.largest_trusted_step;
     if (best.loop.empty () || (is_trusted && !is_best_trusted) ||

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/boundary/two_segment_loop.h"
-
 #include "core/csr_lists.h"
-#include "floater/boundary/neighbor_graph.h"
+#include "core/disjoint_sets.h"
+#include "core/geometry.h"
+#include "floater/boundary/boundary.h"
 #include "points/kd_tree.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -20,6 +19,126 @@
 namespace pcl::floater {
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;
+
+// An edge between two neighbouring points.
+struct NeighborEdge
+{
+  Index a, b;    // a < b
+  Index rank;    // 0 if one point is the nearest of the other, 1 if it is the second nearest, ...
+  double length; // distance
+};
+
+// An edge from one component of the graph to another.
+struct Bridge
+{
+  double sqr_length = std::numeric_limits<double>::infinity ();
+  Index a = NONE, b = NONE;
+
+  bool operator<(const Bridge& other) const
+  {
+    return std::tie (sqr_length, a, b) < std::tie (other.sqr_length, other.a, other.b);
+  }
+};
+
+// Appends bridges until the graph is connected: in each round the shortest bridge from every
+// component (Boruvka's algorithm).
+void
+connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points,
+         const KdTree& tree, Index rank, const RunContext& run)
+{
+  constexpr double ROUNDING = 1.0 + 1e-15; // squaring a square root may round down
+  const std::size_t n = points.size ();
+  DisjointSets sets (n);
+  std::size_t components = n;
+  for (const NeighborEdge& edge : edges)
+    components -= sets.join (edge.a, edge.b) ? 1 : 0;
+  ProgressLoop progress (run);
+  while (components > 1) {
+    std::vector<Index> labels (n);
+    for (Index p = 0; p < n; ++p)
+      labels[p] = sets.find (p);
+    // In the order of the tree: where the run of points of one component begins.
+    std::vector<Index> begin (n, 0);
+    for (Index i = 1; i < n; ++i)
+      begin[i] = labels[tree.pointAt (i)] == labels[tree.pointAt (i - 1)] ? begin[i - 1] : i;
+    std::vector<Bridge> shortest (n); // by the label of the component
+    std::vector<Neighbor> found;
+    for (Index p = 0; p < n; ++p) {
+      progress.next ();
+      Bridge& bridge = shortest[labels[p]];
+      tree.nearestIf (
+          points[p], Eigen::Vector3d::Zero (), ROUNDING * std::sqrt (bridge.sqr_length), 1,
+          [&] (const Neighbor& other, const auto&) { return labels[other.point] != labels[p]; },
+          found,
+          [&] (Index first, Index last) {
+            return begin[last - 1] <= first && labels[tree.pointAt (first)] == labels[p];
+          });
+      for (const auto& [sqr_length, q] : found)
+        bridge = std::min (bridge, Bridge{sqr_length, std::min (p, q), std::max (p, q)});
+    }
+    for (const Bridge& bridge : shortest)
+      if (bridge.a != NONE && sets.join (bridge.a, bridge.b)) {
+        edges.push_back ({bridge.a, bridge.b, rank, std::sqrt (bridge.sqr_length)});
+        --components;
+      }
+  }
+}
+
+// The k nearest neighbours of every point as a symmetric, connected graph. Gaps that no
+// neighbourhood spans are bridged where they are narrowest, by edges of rank k. O(n (k + log n)),
+// where there are gaps O(n log^2 n) at most.
+// \return each pair once, with the smaller of its two ranks, ascending in (a, b)
+std::vector<NeighborEdge>
+neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunContext& run)
+{
+  const KdTree tree (points, run);
+  std::vector<NeighborEdge> edges;
+  std::vector<Neighbor> nearest;
+  ProgressLoop progress (run, points.size ());
+  for (Index p = 0; p < points.size (); ++p) {
+    progress.next ();
+    tree.nearest (points[p], std::size_t{k} + 1, nearest);
+    Index rank = 0;
+    for (const Neighbor& neighbor : nearest)
+      if (neighbor.point != p && rank < k)
+        edges.push_back ({std::min (p, neighbor.point), std::max (p, neighbor.point), rank++,
+                          std::sqrt (neighbor.sqr_distance)});
+  }
+  connect (edges, points, tree, k, run);
+  std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
+    return std::tie (e.a, e.b, e.rank) < std::tie (f.a, f.b, f.rank);
+  });
+  const auto same = [] (const NeighborEdge& e, const NeighborEdge& f) {
+    return e.a == f.a && e.b == f.b;
+  };
+  edges.erase (std::unique (edges.begin (), edges.end (), same), edges.end ());
+  return edges;
+}
+
+// The part of a connected graph in which edges have a rank below k, and the shortest others that
+// keep it connected. O(edges log edges).
+// \param size points of the graph
+std::vector<NeighborEdge>
+nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k)
+{
+  std::vector<NeighborEdge> part, others;
+  DisjointSets sets (size);
+  for (const NeighborEdge& edge : graph)
+    if (edge.rank < k) {
+      sets.join (edge.a, edge.b);
+      part.push_back (edge);
+    }
+    else
+      others.push_back (edge);
+  // Kruskal's algorithm.
+  std::sort (others.begin (), others.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
+    return std::tie (e.length, e.a, e.b) < std::tie (f.length, f.a, f.b);
+  });
+  for (const NeighborEdge& edge : others)
+    if (sets.join (edge.a, edge.b))
+      part.push_back (edge);
+  return part;
+}
 
 // Appends points to a segment that begins with `seed` until it has `size` points.
 //
@@ -115,10 +234,7 @@ std::vector<Index>
 orderSegment (const Positions& positions, const std::vector<Index>& segment, const RunContext& run,
               const LoopLimits& limits)
 {
-  Positions points;
-  points.reserve (segment.size ());
-  for (const Index p : segment)
-    points.push_back (positions[p]);
+  const Positions points = positionsOf (positions, segment);
   const std::vector<NeighborEdge> graph = neighborGraph (points, limits.largest_k, run);
   const Index size = static_cast<Index> (points.size ());
   std::vector<Index> shortest;
@@ -143,17 +259,70 @@ orderSegment (const Positions& positions, const std::vector<Index>& segment, con
 
 } // namespace
 
+std::vector<std::vector<Index>>
+clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
+                       const std::vector<Index>& boundary_points, double tolerance, int k,
+                       const RunContext& run)
+{
+  const Positions points = positionsOf (positions, boundary_points);
+  const KdTree tree (points, run);
+  const std::size_t appended = static_cast<std::size_t> (std::max (k, 0));
+  std::vector<std::uint8_t> taken (points.size (), 0);
+  std::vector<Neighbor> nearest;
+  std::vector<std::vector<Index>> clusters;
+  // By descending number of points around; ties in the order of the list.
+  ProgressLoop progress (run, 2 * points.size ());
+  std::vector<std::size_t> density;
+  for (const Eigen::Vector3d& point : points) {
+    progress.next ();
+    density.push_back (tree.count (point, tolerance));
+  }
+  std::vector<Index> starts (points.size ());
+  std::iota (starts.begin (), starts.end (), Index{0});
+  std::stable_sort (starts.begin (), starts.end (),
+                    [&density] (Index a, Index b) { return density[a] > density[b]; });
+  for (const Index start : starts) {
+    if (taken[start])
+      continue;
+    std::vector<Index> cluster{start};
+    taken[start] = 1;
+    // The order does not matter: a cluster is everything that can be reached from its start among
+    // the untaken points.
+    for (std::size_t processed = 0; processed < cluster.size (); ++processed) {
+      progress.next ();
+      const Index p = cluster[processed];
+      tree.nearest (points[p], appended + 1, nearest);
+      std::size_t rank = 0;
+      for (const Neighbor& neighbor : nearest) {
+        if (neighbor.point == p)
+          continue;
+        if (rank++ == appended || neighbor.sqr_distance > tolerance * tolerance)
+          break;
+        if (!taken[neighbor.point]) {
+          taken[neighbor.point] = 1;
+          cluster.push_back (neighbor.point);
+        }
+      }
+    }
+    for (Index& p : cluster)
+      p = boundary_points[p];
+    std::sort (cluster.begin (), cluster.end ());
+    clusters.push_back (std::move (cluster));
+  }
+  std::sort (clusters.begin (), clusters.end (),
+             [] (const std::vector<Index>& a, const std::vector<Index>& b) {
+               return a.size () != b.size () ? a.size () > b.size () : a.front () < b.front ();
+             });
+  return clusters;
+}
+
 std::vector<Index>
 twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
                 const RunContext& run, const LoopLimits& limits)
 {
   if (cluster.size () < 4)
     return {};
-  Positions points;
-  points.reserve (cluster.size ());
-  for (const Index p : cluster)
-    points.push_back (positions[p]);
-
+  const Positions points = positionsOf (positions, cluster);
   std::vector<Index> segment1 = growSegment (points, 0, points.size () / 2 + 1, run, limits);
 
   // Segment 2 begins at the end of segment 1 and takes all other points.
@@ -164,11 +333,8 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
   for (Index p = 0; p < points.size (); ++p)
     if (!in_segment1[p])
       segment2.push_back (p);
-  Positions points2;
-  points2.reserve (segment2.size ());
-  for (const Index p : segment2)
-    points2.push_back (points[p]);
-  const Index segment2_last = growSegment (points2, 0, points2.size (), run, limits).back ();
+  const Index segment2_last =
+      growSegment (positionsOf (points, segment2), 0, segment2.size (), run, limits).back ();
   std::swap (segment2[segment2_last], segment2.back ());
 
   // The end of segment 2 is the start of segment 1.
@@ -181,174 +347,6 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
   for (Index& p : loop)
     p = cluster[p];
   return loop;
-}
-
-namespace {
-// Largest number of steps along the loop between two edges that 2-opt exchanges. A longer reversal
-// does not undo a crossing of neighbouring jags, and the time grows with the window.
-constexpr std::size_t WINDOW = 30;
-constexpr int UNTANGLE_PASSES = 10; // each only if the last one changed something
-constexpr int INSERTION_PASSES = 4; // a candidate may lie beyond an edge to one just inserted
-// Nearest points of the loop whose edges are tried for a candidate.
-constexpr std::size_t TRIED_LOOP_POINTS = 4;
-
-double
-distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
-{
-  return (positions[p] - positions[q]).norm ();
-}
-
-// 2-opt: reverses stretches of the loop while that shortens it.
-void
-untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loop,
-          const RunContext& run)
-{
-  ProgressLoop progress (run);
-  const std::size_t n = loop.size ();
-  const std::size_t window = std::min (WINDOW, n - 2);
-  const auto at = [&] (std::size_t i) -> Index& { return loop[i % n]; };
-  bool changed = n > 4;
-  for (int pass = 0; changed && pass < UNTANGLE_PASSES; ++pass) {
-    changed = false;
-    for (std::size_t i = 0; i < n; ++i) {
-      progress.next ();
-      for (std::size_t j = i + 2; j <= i + window; ++j) {
-        // Edges (i, i + 1) and (j, j + 1) become (i, j) and (i + 1, j + 1).
-        if ((j + 1) % n == i)
-          continue;
-        const double now =
-            distance (positions, at (i), at (i + 1)) + distance (positions, at (j), at (j + 1));
-        const double then =
-            distance (positions, at (i), at (j)) + distance (positions, at (i + 1), at (j + 1));
-        if (then < now * (1.0 - 1e-9)) {
-          for (std::size_t a = i + 1, b = j; a < b; ++a, --b)
-            std::swap (at (a), at (b));
-          changed = true;
-        }
-      }
-    }
-  }
-}
-
-// Determines the side of the surface at the loop. The normals of the loop's points are oriented one
-// after the other. Then the edges vote whether the neighbours of their points lie to the left or to
-// the right.
-class LoopSides
-{
-public:
-  LoopSides (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-             const std::vector<Index>& loop)
-      : positions_ (positions)
-  {
-    Eigen::Vector3d previous = stars.normals[loop.front ()].cast<double> ();
-    double vote = 0.0;
-    normals_.reserve (loop.size ());
-    for (std::size_t i = 0; i < loop.size (); ++i) {
-      Eigen::Vector3d normal = stars.normals[loop[i]].cast<double> ();
-      if (normal.dot (previous) < 0.0)
-        normal = -normal;
-      normals_.push_back (normal);
-      previous = normal;
-      const Index a = loop[i], b = loop[(i + 1) % loop.size ()];
-      const Eigen::Vector3d left = normal.cross (positions[b] - positions[a]).normalized ();
-      for (Index q : stars.neighbors.row (a)) {
-        const Eigen::Vector3d offset = positions[q] - positions[a];
-        vote += left.dot (offset) / offset.norm ();
-      }
-    }
-    if (vote < 0.0)
-      for (Eigen::Vector3d& normal : normals_)
-        normal = -normal;
-  }
-
-  // Distance of c from the line through a and b, positive on the surface's side. `at` is the index
-  // of a in the loop.
-  double inside (std::size_t at, Index a, Index b, Index c) const
-  {
-    return normals_[at]
-        .cross (positions_[b] - positions_[a])
-        .normalized ()
-        .dot (positions_[c] - positions_[a]);
-  }
-
-private:
-  const std::vector<Eigen::Vector3d>& positions_;
-  std::vector<Eigen::Vector3d> normals_;
-};
-
-// Inserts candidates that lie on or beyond an edge of the loop.
-// \return number of insertions
-std::size_t
-insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-              const std::vector<float>& spacing, const std::vector<Index>& candidates,
-              std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
-{
-  const LoopSides sides (positions, stars, loop);
-  std::vector<std::uint8_t> on_loop (positions.size (), 0);
-  std::vector<Eigen::Vector3d> places;
-  for (Index p : loop) {
-    on_loop[p] = 1;
-    places.push_back (positions[p]);
-  }
-  const KdTree tree (places, run);
-  struct Insertion
-  {
-    std::size_t after; // index in the loop
-    double along;      // position along the edge: several points may go to one edge
-    Index point;
-  };
-  std::vector<Insertion> insertions;
-  std::vector<Neighbor> found;
-  ProgressLoop progress (run);
-  for (Index c : candidates) {
-    progress.next ();
-    if (on_loop[c] != 0)
-      continue;
-    tree.nearest (positions[c], TRIED_LOOP_POINTS, found);
-    double smallest = limits.largest_detour * spacing[c];
-    Insertion best{0, 0.0, NONE};
-    for (const Neighbor& neighbor : found)
-      for (const std::size_t i :
-           {std::size_t{neighbor.point}, (neighbor.point + loop.size () - 1) % loop.size ()}) {
-        const Index a = loop[i], b = loop[(i + 1) % loop.size ()];
-        const double edge = distance (positions, a, b);
-        const double detour = distance (positions, a, c) + distance (positions, c, b) - edge;
-        if (detour >= smallest)
-          continue;
-        smallest = detour;
-        const bool beyond = sides.inside (i, a, b, c) < limits.edge_margin * edge;
-        best = {i, (positions[c] - positions[a]).dot (positions[b] - positions[a]),
-                beyond ? c : NONE};
-      }
-    if (best.point != NONE)
-      insertions.push_back (best);
-  }
-  std::sort (insertions.begin (), insertions.end (), [] (const Insertion& x, const Insertion& y) {
-    return std::tie (x.after, x.along, x.point) < std::tie (y.after, y.along, y.point);
-  });
-  std::vector<Index> wider;
-  auto next = insertions.begin ();
-  for (std::size_t i = 0; i < loop.size (); ++i) {
-    wider.push_back (loop[i]);
-    for (; next != insertions.end () && next->after == i; ++next)
-      wider.push_back (next->point);
-  }
-  loop = std::move (wider);
-  return insertions.size ();
-}
-
-} // namespace
-
-void
-refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-            const std::vector<float>& spacing, const std::vector<Index>& candidates,
-            std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
-{
-  untangle (positions, loop, run);
-  for (int pass = 0; pass < INSERTION_PASSES &&
-                     insertBeyond (positions, stars, spacing, candidates, loop, run, limits) > 0;
-       ++pass)
-    untangle (positions, loop, run);
 }
 
 } // namespace pcl::floater

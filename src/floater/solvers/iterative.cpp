@@ -7,7 +7,6 @@
 #include <Eigen/SparseCore>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace pcl::floater {
@@ -21,41 +20,24 @@ public:
   std::size_t nonZeros () const { return static_cast<std::size_t> (m_lu.nonZeros ()); }
 };
 
-// One round of BiCGSTAB (van der Vorst 1992), from zero on.
-// \param target norm of the residual, as it is updated, at which the round ends
-// \return iterations
-int
-runRound (const Eigen::Map<const Matrix>& matrix, const Vector& rhs, double target, int most,
-          const IncompleteFactors& factors, const RunContext& run, Vector& solution)
+// The factors as a preconditioner, at whose every use the run is polled for cancellation.
+struct Preconditioner
 {
-  constexpr double EPSILON = std::numeric_limits<double>::epsilon ();
-  solution = Vector::Zero (rhs.size ());
-  Vector rest = rhs, start = rhs, v = solution, direction = solution;
-  double rho = 1.0, alpha = 1.0, omega = 1.0, sqr_start = start.squaredNorm ();
-  int iterations = 0;
-  for (; iterations < most && rest.norm () > target; ++iterations) {
-    run.poll ();
-    const double rho_before = rho;
-    rho = start.dot (rest);
-    if (std::abs (rho) < EPSILON * EPSILON * sqr_start) { // orthogonal: begin with what is left
-      rest = rhs - matrix * solution;
-      start = rest;
-      rho = sqr_start = rest.squaredNorm ();
-    }
-    direction = rest + ((rho / rho_before) * (alpha / omega)) * (direction - omega * v);
-    const Vector y = factors.solve (direction);
-    v = matrix * y;
-    alpha = rho / start.dot (v);
-    const Vector s = rest - alpha * v;
-    const Vector z = factors.solve (s);
-    const Vector t = matrix * z;
-    const double sqr_t = t.squaredNorm ();
-    omega = sqr_t > 0.0 ? t.dot (s) / sqr_t : 0.0;
-    solution += alpha * y + omega * z;
-    rest = s - omega * t;
+  template <typename AnyMatrix>
+  Preconditioner& compute (const AnyMatrix&)
+  {
+    return *this;
   }
-  return iterations;
-}
+  Eigen::ComputationInfo info () const { return Eigen::Success; }
+  Vector solve (const Vector& rest) const
+  {
+    run->poll ();
+    return factors->solve (rest);
+  }
+
+  const IncompleteFactors* factors = nullptr;
+  const RunContext* run = nullptr;
+};
 
 // Solves for one right-hand side.
 // \return the solution, and iterations
@@ -63,12 +45,17 @@ std::pair<Vector, int>
 iterate (const LinearSystem& system, Eigen::Index side, const Eigen::Map<const Matrix>& matrix,
          const IncompleteFactors& factors, const SolverOptions& options, const RunContext& run)
 {
+  Eigen::BiCGSTAB<Matrix, Preconditioner> solver; // van der Vorst 1992
+  solver.preconditioner () = {&factors, &run};
+  solver.compute (matrix);
   Vector rest = system.rhs.col (side), solution = Vector::Zero (rest.size ()), step;
   double norm = rest.norm (), target = options.tolerance * norm;
   int iterations = 0;
   while (norm > target && iterations < options.max_iterations) {
-    iterations +=
-        runRound (matrix, rest, target, options.max_iterations - iterations, factors, run, step);
+    solver.setTolerance (target / norm);
+    solver.setMaxIterations (options.max_iterations - iterations);
+    step = solver.solve (rest);
+    iterations += static_cast<int> (solver.iterations ());
     step += solution;
     Residual residual = measureResidual (system, side, step);
     const double next_norm = residual.rest.norm ();

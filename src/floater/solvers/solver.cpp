@@ -75,13 +75,7 @@ constexpr std::size_t METIS_UNKNOWNS = 100'000;
 // stay above.
 constexpr double SINGULAR_RECIPROCAL_CONDITION = 1e-12;
 
-bool
-isIterative (Solver solver)
-{
-  return solver == Solver::BICGSTAB_ILUT || solver == Solver::GAUSS_SEIDEL;
-}
-
-// Sets the outcome by the pivots and the residual of solution.uv, which stays only if it is OK.
+// Looks for a problem in the pivots and the residual of solution.uv, which stays only without.
 void
 conclude (const LinearSystem& system, const SolverOptions& options, Solution& solution)
 {
@@ -95,28 +89,24 @@ conclude (const LinearSystem& system, const SolverOptions& options, Solution& so
     is_finite = is_finite && std::isfinite (norm);
     is_within = is_within && norm <= residual.target (options.tolerance);
   }
-  std::ostringstream message;
-  if (!isIterative (options.method) &&
-      !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION)) {
-    solution.outcome = Solution::Outcome::SINGULAR;
-    message << "factorization: a pivot consists of rounding errors only";
-  }
+  const bool is_iterative =
+      options.method == Solver::BICGSTAB_ILUT || options.method == Solver::GAUSS_SEIDEL;
+  if (!is_iterative && !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION))
+    solution.problem =
+        notSolved (RunStatus::SINGULAR, "factorization: a pivot consists of rounding errors only");
   else if (!is_finite)
-    message << "the solution is not finite";
-  else if (isIterative (options.method) && !is_within) {
-    solution.outcome = Solution::Outcome::NOT_CONVERGED;
+    solution.problem = notSolved (RunStatus::INTERNAL_ERROR, "the solution is not finite");
+  else if (is_iterative && !is_within) {
+    std::ostringstream message;
     const std::size_t iterations = std::max (solution.iterations[0], solution.iterations[1]);
     message << (options.method == Solver::BICGSTAB_ILUT ? "BiCGSTAB" : "Gauss-Seidel")
             << " reached a relative residual of " << solution.relative_residual << " in "
             << iterations << (iterations == 1 ? " iteration" : " iterations") << ", not "
             << options.tolerance;
+    solution.problem = notSolved (RunStatus::NOT_CONVERGED, message.str ());
   }
-  else {
-    solution.outcome = Solution::Outcome::OK;
-    return;
-  }
-  solution.message = message.str ();
-  solution.uv.resize (0, 2);
+  if (solution.problem)
+    solution.uv.resize (0, 2);
 }
 
 void
@@ -170,61 +160,28 @@ measureResidual (const LinearSystem& system, Eigen::Index side,
   return residual;
 }
 
-std::size_t
-countFloatingUnknowns (const LinearSystem& system)
+Problem
+notSolved (RunStatus status, const std::string& why)
 {
-  // Largest rounding error of the sum of a row, relative to it. The smallest weight of a row is far
-  // larger (SMALLEST_WEIGHT).
-  constexpr double ROUNDING = 1e-13;
-  const std::size_t n = system.unknowns ();
-  std::vector<std::uint8_t> tied (n, 0);
-  std::vector<Index> queue;
-  for (std::size_t i = 0; i < n; ++i) {
-    double diagonal = 0.0, others = 0.0;
-    system.visitRow (
-        i, [&] (std::size_t j, double value) { (i == j ? diagonal : others) += std::abs (value); });
-    if (diagonal - others > ROUNDING * diagonal) {
-      tied[i] = 1;
-      queue.push_back (static_cast<Index> (i));
-    }
-  }
-  // Row j holds the unknowns that have j in their row.
-  const CsrLists leading_to = makeCsrLists (n, [&] (const auto& emit) {
-    for (std::size_t i = 0; i < n; ++i)
-      system.visitRow (i, [&] (std::size_t j, double value) {
-        if (value != 0.0)
-          emit (j, static_cast<Index> (i));
-      });
-  });
-  for (std::size_t head = 0; head < queue.size (); ++head)
-    for (const Index i : leading_to.row (queue[head]))
-      if (tied[i] == 0) {
-        tied[i] = 1;
-        queue.push_back (i);
-      }
-  return n - queue.size ();
+  if (status == RunStatus::SINGULAR)
+    return {status, "the linear system is singular (" + why + "); use more neighbours"};
+  if (status == RunStatus::NOT_CONVERGED)
+    return {status, why + "; allow more iterations, or use a direct solver"};
+  if (status == RunStatus::OUT_OF_MEMORY)
+    return {status, "not enough memory for the factorization (" + why +
+                        "): use fewer points, or a machine with more memory"};
+  return {RunStatus::INTERNAL_ERROR, "the linear system was not solved (" + why + ")"};
 }
 
 Solution
 solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run)
 {
   Solution solution;
-  if (const Problem problem = checkSolver (options.method)) {
-    solution.outcome = Solution::Outcome::UNAVAILABLE;
-    solution.message = problem.message;
+  solution.problem = checkSolver (options.method);
+  if (solution.problem)
     return solution;
-  }
   if (system.unknowns () == 0) {
-    solution.outcome = Solution::Outcome::OK;
     solution.reciprocal_condition = 1.0;
-    return solution;
-  }
-  if (const std::size_t floating =
-          isIterative (options.method) ? countFloatingUnknowns (system) : 0) {
-    solution.outcome = Solution::Outcome::SINGULAR;
-    solution.message =
-        std::to_string (floating) + (floating == 1 ? " unknown does not depend on the boundary"
-                                                   : " unknowns do not depend on the boundary");
     return solution;
   }
   Ordering ordering = options.ordering;

@@ -50,9 +50,7 @@ struct LinearSystem
 /// \param neighbors per point: distinct neighbours, not the point itself; a neighbour that is
 ///                  neither an unknown nor on the loop is left out
 /// \param weights   parallel to neighbors.ids, positive
-/// \param loop      points of the loop in order
-/// \param loop_uv   their parameters
-/// \param reachable per point; 1 if the point takes part (see reachability.h)
+/// \param reachable per point; 1 if the point takes part (see Reachability)
 /// \throws IndexLimitReached if the matrix has more than `most_entries`
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
@@ -63,18 +61,8 @@ assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
 /// The solution of a LinearSystem, and what it cost.
 struct Solution
 {
-  enum class Outcome
-  {
-    OK,
-    SINGULAR,
-    NOT_CONVERGED,
-    OUT_OF_MEMORY,
-    UNAVAILABLE, ///< see checkSolver ()
-    FAILED
-  };
-  Outcome outcome = Outcome::FAILED;
-  std::string message; ///< reason, unless OK
-  Eigen::MatrixX2d uv; ///< per unknown; no rows unless OK
+  Problem problem; ///< SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY, SOLVER_UNAVAILABLE or INTERNAL_ERROR
+  Eigen::MatrixX2d uv; ///< per unknown; no rows if there is a problem
   std::size_t nnz_factors =
       0;                 ///< entries of L and U, also of incomplete factors; the unit diagonal
                          ///< of L is not counted
@@ -86,15 +74,15 @@ struct Solution
   std::size_t peak_bytes = 0;        ///< direct solvers: largest memory of the factorization
 };
 
-/// SOLVER_UNAVAILABLE if the library is without the solver, OK otherwise.
+/// SOLVER_UNAVAILABLE if the library is without the solver.
 Problem
 checkSolver (Solver solver);
 
 /// Solves for both coordinates with options.method in the order options.ordering. An empty system
-/// is OK. Every solver refuses a singular system: direct ones by a pivot of rounding errors, the
-/// others look for floating unknowns first. An iterative solver whose measured residual is above
-/// options.tolerance returns NOT_CONVERGED and no solution. The result does not depend on the number
-/// of threads.
+/// has no problem. Direct solvers refuse a singular system by a pivot of rounding errors. An iterative
+/// solver whose measured residual is above options.tolerance returns NOT_CONVERGED and no solution;
+/// of a singular system it may return one of many solutions. The result does not depend on the
+/// number of threads.
 /// \throws std::bad_alloc, IndexLimitReached
 Solution
 solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run);

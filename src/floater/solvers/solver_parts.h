@@ -9,17 +9,21 @@
 #include <vector>
 
 namespace pcl::floater {
-// Each solver fills `uv` and the figures of the solution, or tells the outcome and the message.
-// solve () looks at the residual and the pivots. The direct ones get the rows as the columns of the
+// Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the residual and the pivots. The direct ones get the rows as the columns of the
 // transpose, whose dominant diagonal keeps pivots on the diagonal. They make one factorization for
 // both right-hand sides, with one BLAS thread.
+
+/// Why there is no solution.
+/// \param status SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY, or INTERNAL_ERROR
+Problem
+notSolved (RunStatus status, const std::string& why);
 
 /// \param ordering AMD, or NATURAL: as the unknowns come
 void
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,
                   Solution& solution);
 
-/// If the factors do not fit into memory, that is an outcome; if SuperLU cannot get one of its small
+/// If the factors do not fit into memory, that is a problem; if SuperLU cannot get one of its small
 /// working arrays, it ends the process.
 /// \param ordering AUTOMATIC: minimum degree on A + A^T, or NATURAL
 void
@@ -57,14 +61,6 @@ struct Residual
 Residual
 measureResidual (const LinearSystem& system, Eigen::Index side,
                  const Eigen::Ref<const Eigen::VectorXd>& solution);
-
-/// Counts the unknowns from which no path, from row to column, leads to a row in which the boundary
-/// takes part: one whose diagonal exceeds the sum of its other entries. With positive weights the
-/// system is singular if and only if there are such unknowns. An iterative solver would not notice;
-/// it stops at one of the many solutions. O(entries).
-/// \param system no diagonal is less than the sum of the row's other entries
-std::size_t
-countFloatingUnknowns (const LinearSystem& system);
 
 /// An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T:
 /// entry i is the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow the

@@ -10,27 +10,25 @@
 
 namespace pcl::floater {
 namespace {
-// A matrix of SuperLU, freed by the function for its kind. It is empty until it has a store.
-template <void (*release) (SuperMatrix*)>
-struct Owned
+// What SuperLU allocates. A matrix is empty until it has a store.
+struct Allocated
 {
-  Owned () = default;
-  Owned (const Owned&) = delete;
-  Owned& operator= (const Owned&) = delete;
-  ~Owned ()
+  Allocated () { StatInit (&stat); }
+  Allocated (const Allocated&) = delete;
+  Allocated& operator= (const Allocated&) = delete;
+  ~Allocated ()
   {
-    if (matrix.Store != nullptr)
-      release (&matrix);
+    const auto release = [] (SuperMatrix& matrix, void (*destroy) (SuperMatrix*)) {
+      if (matrix.Store != nullptr)
+        destroy (&matrix);
+    };
+    release (rows, Destroy_SuperMatrix_Store);
+    release (sides, Destroy_SuperMatrix_Store);
+    release (lower, Destroy_SuperNode_Matrix);
+    release (upper, Destroy_CompCol_Matrix);
+    StatFree (&stat);
   }
-  SuperMatrix matrix{};
-};
-
-struct Counters
-{
-  Counters () { StatInit (&stat); }
-  Counters (const Counters&) = delete;
-  Counters& operator= (const Counters&) = delete;
-  ~Counters () { StatFree (&stat); }
+  SuperMatrix rows{}, sides{}, lower{}, upper{};
   SuperLUStat_t stat{};
 };
 
@@ -70,38 +68,37 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering, Solution& solut
   control.ColPerm = ordering == Ordering::NATURAL ? NATURAL : MMD_AT_PLUS_A;
 
   // SuperLU only reads these arrays, though its pointers are not const.
-  Owned<Destroy_SuperMatrix_Store> rows, sides;
-  dCreate_CompRow_Matrix (&rows.matrix, n, n, static_cast<int> (system.nonzeros ()),
+  Allocated all;
+  dCreate_CompRow_Matrix (&all.rows, n, n, static_cast<int> (system.nonzeros ()),
                           const_cast<double*> (system.values.data ()),
                           const_cast<int*> (system.columns.data ()),
                           const_cast<int*> (system.row_offsets.data ()), SLU_NR, SLU_D, SLU_GE);
   Eigen::MatrixX2d uv = system.rhs; // solved in place
-  dCreate_Dense_Matrix (&sides.matrix, n, 2, uv.data (), n, SLU_DN, SLU_D, SLU_GE);
-  Owned<Destroy_SuperNode_Matrix> lower;
-  Owned<Destroy_CompCol_Matrix> upper;
-  Counters counters;
+  dCreate_Dense_Matrix (&all.sides, n, 2, uv.data (), n, SLU_DN, SLU_D, SLU_GE);
   std::vector<int> column_order (system.unknowns ()), row_order (system.unknowns ());
   int info = 0;
-  dgssv (&control, &rows.matrix, column_order.data (), row_order.data (), &lower.matrix,
-         &upper.matrix, &sides.matrix, &counters.stat, &info);
+  dgssv (&control, &all.rows, column_order.data (), row_order.data (), &all.lower, &all.upper,
+         &all.sides, &all.stat, &info);
   if (info > n) { // there are no factors
-    lower.matrix.Store = upper.matrix.Store = nullptr;
-    solution.outcome = Solution::Outcome::OUT_OF_MEMORY;
-    solution.message = "factorization: SuperLU got only " + std::to_string (info - n) + " bytes";
+    all.lower.Store = all.upper.Store = nullptr;
+    solution.problem =
+        notSolved (RunStatus::OUT_OF_MEMORY,
+                   "factorization: SuperLU got only " + std::to_string (info - n) + " bytes");
     return;
   }
   if (info < 0) {
-    solution.message = "SuperLU does not accept argument " + std::to_string (-info);
+    solution.problem = notSolved (RunStatus::INTERNAL_ERROR,
+                                  "SuperLU does not accept argument " + std::to_string (-info));
     return;
   }
   mem_usage_t memory{};
-  dQuerySpace (&lower.matrix, &upper.matrix, &memory);
+  dQuerySpace (&all.lower, &all.upper, &memory);
   solution.peak_bytes = static_cast<std::size_t> (memory.total_needed);
   solution.nnz_factors =
-      static_cast<std::size_t> (static_cast<const SCformat*> (lower.matrix.Store)->nnz) +
-      static_cast<std::size_t> (static_cast<const NCformat*> (upper.matrix.Store)->nnz) -
+      static_cast<std::size_t> (static_cast<const SCformat*> (all.lower.Store)->nnz) +
+      static_cast<std::size_t> (static_cast<const NCformat*> (all.upper.Store)->nnz) -
       system.unknowns ();
-  solution.reciprocal_condition = info > 0 ? 0.0 : pivotRatio (lower.matrix);
+  solution.reciprocal_condition = info > 0 ? 0.0 : pivotRatio (all.lower);
   solution.uv = std::move (uv);
 }
 

@@ -13,7 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-// Unknowns from which on the interface has 64-bit indices. That with 32 bits takes an eighth less
+// Unknowns from which on the interface has 64-bit indices. That with 32 bits takes a fifth less
 // memory, and holds factors of up to 2 GB; there are about 1.2 kB of them per unknown.
 constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
 
@@ -21,8 +21,7 @@ constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
 struct IntInterface
 {
   using Int = int;
-  static constexpr auto SYMBOLIC = &umfpack_di_symbolic;
-  static constexpr auto QSYMBOLIC = &umfpack_di_qsymbolic;
+  static constexpr auto SYMBOLIC = &umfpack_di_qsymbolic;
   static constexpr auto NUMERIC = &umfpack_di_numeric;
   static constexpr auto SOLVE = &umfpack_di_solve;
   static constexpr auto FREE_SYMBOLIC = &umfpack_di_free_symbolic;
@@ -32,8 +31,7 @@ struct IntInterface
 struct LongInterface
 {
   using Int = SuiteSparse_long;
-  static constexpr auto SYMBOLIC = &umfpack_dl_symbolic;
-  static constexpr auto QSYMBOLIC = &umfpack_dl_qsymbolic;
+  static constexpr auto SYMBOLIC = &umfpack_dl_qsymbolic;
   static constexpr auto NUMERIC = &umfpack_dl_numeric;
   static constexpr auto SOLVE = &umfpack_dl_solve;
   static constexpr auto FREE_SYMBOLIC = &umfpack_dl_free_symbolic;
@@ -60,10 +58,11 @@ accept (const Info& info, const char* call, Solution& solution)
   const int code = static_cast<int> (info[UMFPACK_STATUS]);
   if (code == UMFPACK_OK)
     return true;
-  solution.message = std::string (call) + ": UMFPACK status " + std::to_string (code);
-  solution.outcome = code == UMFPACK_WARNING_singular_matrix ? Solution::Outcome::SINGULAR
-                     : code == UMFPACK_ERROR_out_of_memory   ? Solution::Outcome::OUT_OF_MEMORY
-                                                             : Solution::Outcome::FAILED;
+  const RunStatus status = code == UMFPACK_WARNING_singular_matrix ? RunStatus::SINGULAR
+                           : code == UMFPACK_ERROR_out_of_memory   ? RunStatus::OUT_OF_MEMORY
+                                                                   : RunStatus::INTERNAL_ERROR;
+  solution.problem =
+      notSolved (status, std::string (call) + ": UMFPACK status " + std::to_string (code));
   return false;
 }
 
@@ -79,15 +78,11 @@ solveWithIndices (const LinearSystem& system, const Control& control, const RunC
     const std::vector<Int> columns (system.columns.begin (), system.columns.end ());
     const auto n = static_cast<Int> (system.unknowns ());
     void* handle = nullptr;
-    if (control[UMFPACK_FIXQ] > 0.0) {
-      std::vector<Int> order (system.unknowns ());
-      std::iota (order.begin (), order.end (), Int{0});
-      Interface::QSYMBOLIC (n, n, offsets.data (), columns.data (), system.values.data (),
-                            order.data (), &handle, control.data (), info.data ());
-    }
-    else
-      Interface::SYMBOLIC (n, n, offsets.data (), columns.data (), system.values.data (), &handle,
-                           control.data (), info.data ());
+    std::vector<Int> order (control[UMFPACK_FIXQ] > 0.0 ? system.unknowns () : 0);
+    std::iota (order.begin (), order.end (), Int{0});
+    Interface::SYMBOLIC (n, n, offsets.data (), columns.data (), system.values.data (),
+                         order.empty () ? nullptr : order.data (), &handle, control.data (),
+                         info.data ());
     const Handle<Interface::FREE_SYMBOLIC> symbolic (std::exchange (handle, nullptr));
     if (!accept (info, "symbolic analysis", solution))
       return;
@@ -141,8 +136,10 @@ solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContex
   if (!is_long)
     solveWithIndices<IntInterface> (system, control, run, solution);
   // UMFPACK reports running out of 32-bit indices as running out of memory.
-  if (is_long || solution.outcome == Solution::Outcome::OUT_OF_MEMORY)
+  if (is_long || solution.problem.status == RunStatus::OUT_OF_MEMORY) {
+    solution.problem = {};
     solveWithIndices<LongInterface> (system, control, run, solution);
+  }
 }
 
 } // namespace pcl::floater

@@ -3,9 +3,6 @@
 // The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, both
 // finders of loops, and the stage as a whole.
 #include "floater/boundary/boundary.h"
-#include "floater/boundary/neighbor_graph.h"
-#include "floater/boundary/spanning_tree_loop.h"
-#include "floater/boundary/two_segment_loop.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>

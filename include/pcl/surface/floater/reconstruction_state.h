@@ -45,28 +45,24 @@ public:
   /** \brief The kind of surface that the points are taken for; default AUTO. With DISC, a run ends
    * with RunStatus::NO_BOUNDARY, NOT_A_DISC or UNREACHABLE if the surface is not a disc. */
   void setTopology (Topology topology);
-  /** \brief The kind of surface asked for; getReport() has the one that was made. */
-  Topology getTopology () const;
+  Topology getTopology () const; ///< as asked for; getReport() has that of the mesh
 
   /** \brief Which boundary loops of a surface stay open; default AUTO: those that look
    * like boundaries, not like gaps of the sampling. Topology::DISC takes AUTO and KEEP_LARGEST
    * only, which mean the same there. */
   void setHolePolicy (HolePolicy policy);
-  /** \brief Which boundary loops of a surface stay open. */
-  HolePolicy getHolePolicy () const;
+  HolePolicy getHolePolicy () const; ///< see setHolePolicy()
 
   /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open, the most likely boundaries of
    * the whole surface; 0 or more, default 1. */
   void setKeptLoops (int loops);
-  /** \brief HolePolicy::KEEP_COUNT: boundary loops that stay open. */
-  int getKeptLoops () const;
+  int getKeptLoops () const; ///< see setKeptLoops()
 
   /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled, above 0, in local
    * spacings or in units of the cloud. No default would do: without a size, a run with this policy
    * ends with RunStatus::INVALID_OPTION. Other policies do not read it. */
   void setLargestHole (double size, LengthUnit unit = LengthUnit::SPACINGS);
-  /** \brief HolePolicy::BY_SIZE: width of the widest hole that is filled; 0 if none was set. */
-  double getLargestHole () const;
+  double getLargestHole () const; ///< see setLargestHole(); 0: none was set
   /** \brief HolePolicy::BY_SIZE: the unit of getLargestHole(). */
   LengthUnit getLargestHoleUnit () const;
 
@@ -74,17 +70,14 @@ public:
    * points are connected as they were seen from there, and the mesh faces the sensor; every point
    * must be visible from there. Sets ViewUse::GIVEN. */
   void setViewPoint (double x, double y, double z);
-  /** \brief The place that was given; (0, 0, 0) if there is none. getReport() has the one that was
-   * used. */
-  const std::array<double, 3>& getViewPoint () const;
+  const std::array<double, 3>& getViewPoint () const; ///< the given one, or (0, 0, 0)
 
   /** \brief Whether a cloud of one scan is connected as its sensor saw it; default AUTO: if the
    * spacing of its points tells so. The origin of the sensor in the cloud is tried, and where
    * points are noisy or uneven, the place is searched. With NEVER, the mesh does not face the
    * sensor either. */
   void setViewUse (ViewUse use);
-  /** \brief Whether a cloud of one scan is connected as its sensor saw it. */
-  ViewUse getViewUse () const;
+  ViewUse getViewUse () const; ///< see setViewUse()
 
   /** \brief Which side of each component of the mesh is its front; default AUTO: that which the
    * evidence tells. With NORMALS, the points need normals, else a run ends with
@@ -92,8 +85,7 @@ public:
    * asks for that. Where a choice decides nothing, a warning says so, and AUTO decides. getReport()
    * has in facing_parts which rule turned how many parts, and how sure that is. */
   void setFacing (Facing facing);
-  /** \brief Which side of each component of the mesh is its front. */
-  Facing getFacing () const;
+  Facing getFacing () const; ///< see setFacing()
 
   /** \brief Length that no edge of the mesh exceeds, in units of the cloud, 0 or more; default 0:
    * no limit. Triangles with a longer edge are cut off the finished mesh, and where they were there
@@ -102,64 +94,54 @@ public:
    * off, getUnusedIndices() has points that lose all their triangles. If nothing is left, the run
    * ends with RunStatus::DEGENERATE. */
   void setMaximumEdgeLength (double length);
-  /** \brief Length that no edge of the mesh exceeds, in units of the cloud; 0: no limit. */
-  double getMaximumEdgeLength () const;
+  double getMaximumEdgeLength () const; ///< see setMaximumEdgeLength()
 
   /** \brief As setMaximumEdgeLength(), in local spacings: the mean of those of the two ends of the
    * edge; 0 or more; default 0: no limit. Edges of a good mesh are up to about 3 long, and up to 6
    * where the sampling is uneven. */
   void setMaximumEdgeRatio (double spacings);
-  /** \brief Length that no edge of the mesh exceeds, in local spacings; 0: no limit. */
-  double getMaximumEdgeRatio () const;
+  double getMaximumEdgeRatio () const; ///< see setMaximumEdgeRatio()
 
   /** \brief Whether triangles are taken out until no two cross each other; default false. It is the
    * last resort after setRemoveSelfIntersections(), for those who simulate, print or trace rays: at
    * such places the mesh gets holes, mostly of a few triangles. getStatistics() counts them. */
   void setOpenSelfIntersections (bool open);
-  /** \brief Whether triangles are taken out until no two cross each other. */
-  bool getOpenSelfIntersections () const;
+  bool getOpenSelfIntersections () const; ///< see setOpenSelfIntersections()
 
   /** \brief Components of the mesh with fewer points are left out, 0 or more; default 0: none.
    * Components are counted after long edges and crossing triangles were cut off. */
   void setMinimumComponentSize (int points);
-  /** \brief Components of the mesh with fewer points are left out. */
-  int getMinimumComponentSize () const;
+  int getMinimumComponentSize () const; ///< see setMinimumComponentSize()
 
   /** \brief Whether points that lie off any surface are left out of the mesh; default true.
    * getOutlierIndices() has them. */
   void setRemoveOutliers (bool remove_outliers);
-  /** \brief Whether points that lie off any surface are left out of the mesh. */
-  bool getRemoveOutliers () const;
+  bool getRemoveOutliers () const; ///< see setRemoveOutliers()
 
   /** \brief What becomes of regions that are no surface at any scale, such as leaves and grass;
    * default AUTO: left out of a surface where it certainly is none. getScatterIndices() has their points. */
   void setScatterPolicy (ScatterPolicy policy);
-  /** \brief What becomes of regions that are no surface at any scale. */
-  ScatterPolicy getScatterPolicy () const;
+  ScatterPolicy getScatterPolicy () const; ///< see setScatterPolicy()
 
   /** \brief Whether points are connected as they lie when projected on local planes, where noise is
    * strong; default true. The vertices of the mesh are not moved. */
   void setDenoise (bool denoise);
-  /** \brief Whether strong noise is projected away before points are connected. */
-  bool getDenoise () const;
+  bool getDenoise () const; ///< see setDenoise()
 
   /** \brief Number of nearest neighbours of each point, 6 to 200; default 20. Not for balls. */
   void setKSearch (int k);
-  /** \brief Number of nearest neighbours of each point. */
-  int getKSearch () const;
+  int getKSearch () const; ///< see setKSearch()
 
   /** \brief Which points a point of a disc is a convex combination of; default NEAREST_DELAUNAY. A
    * surface takes Delaunay stars in any case. With BALL and BALL_DELAUNAY, the points in a ball
    * replace the k nearest in all stages (TW 385, sections 2.1 and 6). */
   void setNeighborhood (Neighborhood neighborhood);
-  /** \brief Which points a point of a disc is a convex combination of. */
-  Neighborhood getNeighborhood () const;
+  Neighborhood getNeighborhood () const; ///< see setNeighborhood()
 
   /** \brief Radius of balls, in mean distances of a point to its 6 nearest, 1 to 10; default 2.25,
    * which gives about 20 neighbours. */
   void setBallRadius (double spacings);
-  /** \brief Radius of balls, in mean distances of a point to its 6 nearest. */
-  double getBallRadius () const;
+  double getBallRadius () const; ///< see setBallRadius()
 
   /** \brief All that only a disc takes: how its boundary loop is found, or the loop itself; the
    * curve on which it is laid; weights and solver of the linear system. Another surface does not
@@ -168,16 +150,14 @@ public:
    * given. They replace all that were set before, a loop of setPrescribedLoop() as well: to
    * keep what was set, change a copy of getDiscOptions(). */
   void setDiscOptions (const DiscOptions& options);
-  /** \brief All that only a disc takes, the given boundary loop among them. */
-  const DiscOptions& getDiscOptions () const;
+  const DiscOptions& getDiscOptions () const; ///< see setDiscOptions()
 
   /** \brief Gives the boundary loop: cloud indices in order, either way round, each once, 3 or
    * more. The surface is then made as a disc. Default empty: the loop is found. Not with
    * Topology::SURFACE. It is BoundaryOptions::loop of getDiscOptions() in the type of PCL's
    * indices: the later call of the two setters counts. */
   void setPrescribedLoop (const pcl::Indices& loop);
-  /** \brief The given boundary loop; empty: the loop is found. */
-  const pcl::Indices& getPrescribedLoop () const;
+  const pcl::Indices& getPrescribedLoop () const; ///< see setPrescribedLoop()
 
   /** \brief Whether the normals of the points are those of their tangent planes, instead of planes
    * through their neighbours; default false. For point types with normals only: with others, a run
@@ -186,19 +166,16 @@ public:
    * With Facing::AUTO, the mesh also faces where the normals point to; where they contradict each
    * other, as if they had never been oriented, a warning says so and they decide nothing. */
   void setUseInputNormals (bool use);
-  /** \brief Whether the normals of the points are those of their tangent planes. */
-  bool getUseInputNormals () const;
+  bool getUseInputNormals () const; ///< see setUseInputNormals()
 
   /** \brief Whether neighbours on another sheet of the surface are dropped; default true. */
   void setFilterSheets (bool filter_sheets);
-  /** \brief Whether neighbours on another sheet of the surface are dropped. */
-  bool getFilterSheets () const;
+  bool getFilterSheets () const; ///< see setFilterSheets()
 
   /** \brief Whether edges are flipped in space towards Delaunay, and folds repaired; default true.
    */
   void setFlipEdges (bool flip_edges);
-  /** \brief Whether edges are flipped in space and folds repaired. */
-  bool getFlipEdges () const;
+  bool getFlipEdges () const; ///< see setFlipEdges()
 
   /** \brief Whether the mesh is changed where its triangles cross each other, by flips of edges and
    * by moving points to other triangles; default true. Not without setFlipEdges, and not where
@@ -206,8 +183,7 @@ public:
    * sensor saw them, and where noisy points were projected to connect them (see setDenoise).
    * Report::check tells how many pairs are left. */
   void setRemoveSelfIntersections (bool remove);
-  /** \brief Whether the mesh is changed where its triangles cross each other. */
-  bool getRemoveSelfIntersections () const;
+  bool getRemoveSelfIntersections () const; ///< see setRemoveSelfIntersections()
 
   /** \brief Whether the mesh gets normals of its vertices; default false. They are the means of the
    * normals of the triangles around a point, weighted by their angles there, and point to the front
@@ -216,48 +192,41 @@ public:
    * has normals. Normals of the input are replaced in the output, a curvature is not. Points in no
    * triangle have (0, 0, 0). Takes 64 bytes per point and a tenth of the time of a run. */
   void setComputeNormals (bool compute);
-  /** \brief Whether the mesh gets normals of its vertices. */
-  bool getComputeNormals () const;
+  bool getComputeNormals () const; ///< see setComputeNormals()
   /** \brief Whether texture coordinates of the mesh are computed; default false.
    * getTextureCoordinates() has them, and reconstruct() of a pcl::TextureMesh in any case. A disc
    * (Topology::DISC) is laid out in one piece, any other mesh in charts with little stretch. Takes
    * about as long as the reconstruction. */
   void setComputeTextureCoordinates (bool compute);
-  /** \brief Whether texture coordinates of the mesh are computed. */
-  bool getComputeTextureCoordinates () const;
+  bool getComputeTextureCoordinates () const; ///< see setComputeTextureCoordinates()
 
   /** \brief Mean stretch above which a chart of the texture is cut, 1 or more; see
    * TextureOptions::largest_stretch, also for the default. */
   void setLargestStretch (double stretch);
-  /** \brief Mean stretch above which a chart of the texture is cut. */
-  double getLargestStretch () const;
+  double getLargestStretch () const; ///< see setLargestStretch()
 
   /** \brief Number of threads; default 0: one for each core. The result is the same. */
   void setNumberOfThreads (unsigned int nr_threads = 0);
-  /** \brief Number of threads; 0: one for each core. */
-  unsigned int getNumberOfThreads () const;
+  unsigned int getNumberOfThreads () const; ///< see setNumberOfThreads()
 
   /** \brief Number of blocks in which the nearest neighbours are searched, 0 or more; default 0:
    * one block up to 262,144 points, above that blocks of at most 131,072 points. It changes the
    * time and the memory of the search only; the result is the same. Discs, balls and a search
    * method of one's own have one block. */
   void setNumberOfBlocks (int blocks = 0);
-  /** \brief Number of blocks in which the nearest neighbours are searched; 0: chosen. */
-  int getNumberOfBlocks () const;
+  int getNumberOfBlocks () const; ///< see setNumberOfBlocks()
 
   /** \brief Called when a stage of a run begins, by the thread that called reconstruct(); default
    * none. An exception from it ends the run with RunStatus::INTERNAL_ERROR. */
   void setStageCallback (std::function<void (Stage)> callback);
-  /** \brief The function that is called when a stage begins; empty if there is none. */
-  const std::function<void (Stage)>& getStageCallback () const;
+  const std::function<void (Stage)>& getStageCallback () const; ///< see setStageCallback()
 
   /** \brief Called with the fraction of the run that is done, from 0 to 1 and never decreasing:
    * when a stage begins, up to 20 times a second within it, and with 1 at the end; default none.
    * The fraction is estimated from typical runs, and does not move while a linear system is solved.
    * Thread and exceptions are as for setStageCallback(). */
   void setProgressCallback (std::function<void (double fraction)> callback);
-  /** \brief The function that is called with the fraction done; empty if there is none. */
-  const std::function<void (double)>& getProgressCallback () const;
+  const std::function<void (double)>& getProgressCallback () const; ///< see setProgressCallback()
 
   /** \brief Asked whether the run is to be cancelled, as often as the progress callback is called;
    * default none. If it returns true, the run ends with RunStatus::CANCELLED and an empty mesh,
@@ -265,8 +234,7 @@ public:
    * PCL are waited for. It may read an atomic variable that another thread sets. Thread and
    * exceptions are as for setStageCallback(). */
   void setCancelledCallback (std::function<bool ()> callback);
-  /** \brief The function that is asked whether to cancel; empty if there is none. */
-  const std::function<bool ()>& getCancelledCallback () const;
+  const std::function<bool ()>& getCancelledCallback () const; ///< see setCancelledCallback()
 
   /** \brief Outcome of the last run; NOT_RUN before the first. */
   RunStatus getStatus () const;

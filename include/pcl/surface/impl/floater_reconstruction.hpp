@@ -237,9 +237,8 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
   input.cloud_size = size;
   if (input_->isOrganized () && std::size_t{input_->width} * input_->height == size)
     input.lattice_width = input_->width;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    input.sensor_origin[axis] =
-        static_cast<double> (input_->sensor_origin_[static_cast<Eigen::Index> (axis)]);
+  Eigen::Map<Eigen::Vector3d> (input.sensor_origin.data ()) =
+      input_->sensor_origin_.template head<3> ().template cast<double> ();
   input.positions.reserve (indices_->size ());
   input.cloud_index.reserve (indices_->size ());
   std::vector<bool> taken (size, false);
