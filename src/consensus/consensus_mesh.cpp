@@ -38,16 +38,15 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
                    Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
                    const RunContext& run)
 {
-  const Rows all = Rows::all (positions.size ());
   // Mean normals at sharp edges, where both faces are visible from them.
   std::vector<Eigen::Vector3f> smoothed =
-      smoothedNormals (positions, neighbors, stars.normals, all, run);
-  CandidateLists candidates =
-      findCandidates (positions, stars, smoothed, spacing, all, limits.candidates, run);
+      smoothedNormals (positions, neighbors, stars.normals, run);
+  std::vector<Candidate> candidates =
+      findCandidates (positions, stars, smoothed, spacing, limits.candidates, run);
   ConsensusMesh made;
   made.normals = std::move (stars.normals);
   stars = {};
-  Consensus consensus = buildConsensus (positions, candidates, smoothed, run);
+  Consensus consensus = buildConsensus (positions, candidates, limits.candidates, smoothed, run);
   candidates = {};
   made.seam = std::move (consensus.seam);
   made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);

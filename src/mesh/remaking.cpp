@@ -58,7 +58,7 @@ public:
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
         after (place, made.triangles, made.is_turned, run_);
-    misfits = after.misfits ();
+    misfits = after.misfits (run_);
     for (Index& p : misfits)
       p = points[p];
     if (!misfits.empty () || !after.isManifold () ||
@@ -70,7 +70,7 @@ public:
     std::vector<double> edges;
     for (const Index p : points)
       edges.push_back (meanEdge (p));
-    const std::vector<std::uint8_t> over = after.overOpenings (edges, made.triangles.size (), run_);
+    const std::vector<std::uint8_t> over = after.overOpenings (edges, made.triangles.size ());
     for (std::size_t i = 0; i < made.triangles.size (); ++i)
       if (const Triangle& t = made.triangles[i]; over[i] == 0)
         result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});

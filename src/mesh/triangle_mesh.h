@@ -163,6 +163,10 @@ private:
   bool is_clockwise_ = false;
 };
 
+/// The boundary edges, in the order of their triangles. O(n).
+std::vector<MeshEdge>
+boundaryEdges (const TriangleMesh& mesh);
+
 /// The points of each boundary loop in order, the surface on the left. A loop starts at its
 /// smallest point; loops are sorted by these. O(n).
 std::vector<std::vector<Index>>
