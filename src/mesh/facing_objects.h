@@ -3,7 +3,6 @@
 // Components of a mesh that are oriented together, and what tells their front.
 #pragma once
 
-#include "core/geometry.h"
 #include "mesh/facing.h"
 
 #include <algorithm>
@@ -63,12 +62,6 @@ inline Eigen::Vector3d
 middleOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
 {
   return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
-}
-
-inline Eigen::Vector3d
-areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
-{
-  return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
 /// Joins components that continue each other across a gap. For each boundary edge, finds the nearest one

@@ -71,9 +71,7 @@ private:
   {
     double area = 0.0;
     for (const MeshEdge e : triangles)
-      area += areaVector (positions_[mesh_.corner (e)], positions_[mesh_.from (e)],
-                          positions_[mesh_.to (e)])
-                  .norm ();
+      area += areaVectorOf (mesh_.triangles[e.triangle], positions_).norm ();
     if (area < least_area_) {
       least_area_ = area;
       best_ = triangles;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/csr_lists.h"
+#include "core/geometry.h"
 #include "core/run_context.h"
 
 #include <vector>
@@ -15,6 +16,12 @@ struct MeshEdge
   Index triangle;
   std::uint8_t side;
 };
+
+inline Eigen::Vector3d
+areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+{
+  return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
+}
 
 /// Records changes of a mesh, so that they can be undone.
 class MeshJournal
