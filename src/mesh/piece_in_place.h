@@ -6,7 +6,6 @@
 #include "core/disjoint_sets.h"
 #include "core/geometry.h"
 #include "mesh/fold_repair.h"
-#include "mesh/open_boundary.h"
 #include "mesh/self_intersections.h"
 #include "mesh/two_sides.h"
 #include "mesh/vertex_stars.h"
@@ -89,30 +88,6 @@ public:
         twice +=
             (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
     return twice - triangles + (3 * triangles + open_edges) / 2;
-  }
-
-  /// Which of the other triangles cover an opening at the boundary: no point is in the circumcircle of
-  /// a triangle, and among evenly spaced points its radius is at most the mean edge (see
-  /// HoleWideningLimits).
-  /// \param edge mean edge around each point
-  std::vector<std::uint8_t> overOpenings (const std::vector<double>& edge, std::size_t others) const
-  {
-    const std::vector<Eigen::Vector3d>& x = place_.positions;
-    BoundaryPeel peel (mesh_, x.size ());
-    std::vector<MeshEdge> edges = peel.edges ();
-    while (!edges.empty ()) {
-      const MeshEdge e = edges.back ();
-      edges.pop_back ();
-      const auto& [a, b, c] = mesh_.triangles[e.triangle];
-      if (e.triangle >= others || !peel.mayTake (e) ||
-          circumradius (x[a], x[b], x[c]) <= std::max ({edge[a], edge[b], edge[c]}))
-        continue;
-      peel.take (e);
-      for (const std::uint8_t side : {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)})
-        if (const MeshEdge beyond = mesh_.mate ({e.triangle, side}); beyond.triangle != NONE)
-          edges.push_back (beyond);
-    }
-    return std::move (peel).takenTriangles ();
   }
 
   /// Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
