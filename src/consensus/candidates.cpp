@@ -4,11 +4,9 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "local/stars.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -27,41 +25,7 @@ setCircumradiusRatio (const std::vector<Eigen::Vector3d>& positions,
       static_cast<float> (circumradius (positions[a], positions[b], positions[c]) / mean_spacing);
 }
 
-void
-append (const Candidate& candidate, std::size_t sure_ranks, CandidateLists& lists)
-{
-  const std::size_t rank = normalAgreementRank (candidate);
-  if (candidate.votes == 3 && rank < sure_ranks)
-    lists.sure.push_back (
-        {candidate.corners, candidate.clockwise, static_cast<std::uint8_t> (rank), false});
-  else
-    lists.doubtful.push_back (candidate);
-}
-
-// Joins the lists of all ranges, and frees each one after it is copied.
-CandidateLists
-concatenate (std::vector<CandidateLists>& ranges)
-{
-  if (ranges.size () == 1)
-    return std::move (ranges.front ());
-  std::size_t sure = 0, doubtful = 0;
-  for (const CandidateLists& range : ranges) {
-    sure += range.sure.size ();
-    doubtful += range.doubtful.size ();
-  }
-  CandidateLists all;
-  all.sure.reserve (sure);
-  all.doubtful.reserve (doubtful);
-  for (CandidateLists& range : ranges) {
-    all.sure.insert (all.sure.end (), range.sure.begin (), range.sure.end ());
-    all.doubtful.insert (all.doubtful.end (), range.doubtful.begin (), range.doubtful.end ());
-    range = {};
-  }
-  return all;
-}
-
-} // namespace
-
+// Sets the normal agreement and `clockwise` from the corners.
 void
 setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
                     const std::vector<Eigen::Vector3f>& normals, Candidate& candidate)
@@ -80,18 +44,18 @@ setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
   }
 }
 
-CandidateLists
+} // namespace
+
+std::vector<Candidate>
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
                 const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const Rows& rows, const CandidateLimits& limits, const RunContext& run)
+                const CandidateLimits& limits, const RunContext& run)
 {
-  const std::size_t sure_ranks = limits.sure_ranks;
-  std::vector<CandidateLists> ranges ((rows.size () + RANGE_LENGTH - 1) / RANGE_LENGTH);
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    CandidateLists& range = ranges[first / RANGE_LENGTH];
-    range.sure.reserve (2 * (last - first));
-    for (std::size_t i = first; i < last; ++i) {
-      const Index p = rows[i];
+  RangeLists<Candidate> ranges (positions.size ());
+  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+    std::vector<Candidate>& range = ranges.of (first);
+    range.reserve (2 * (last - first));
+    for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Row row = stars.neighbors.row (p);
       if (row.size () < 2)
         continue;
@@ -107,13 +71,11 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
         const std::size_t rank = candidate.votes - 1U;
         if (candidate.circumradius_ratio <= limits.circumradius_ratio[rank] &&
             candidate.normal_agreement >= limits.normal_agreement[rank])
-          append (candidate, sure_ranks, range);
+          range.push_back (candidate);
       }
     }
   });
-  CandidateLists all = concatenate (ranges);
-  all.sure_ranks = limits.sure_ranks;
-  return all;
+  return ranges.join ();
 }
 
 } // namespace pcl::floater

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "local/stars.h"
-#include "points/neighbors.h"
 
 #include <array>
 #include <cstddef>
@@ -20,23 +19,6 @@ struct Candidate
   std::uint8_t clockwise;   ///< bit i: clockwise seen from the normal of corner i
   float circumradius_ratio; ///< circumradius over the mean spacing of its corners
   float normal_agreement;   ///< least |cosine| between its normal and those of its corners
-};
-
-/// A candidate of three votes with a good normal agreement. It enters the consensus unless it
-/// contradicts the orientation. Most triangles are of this kind, so it takes only 16 bytes.
-struct SureTriangle
-{
-  Triangle corners;
-  std::uint8_t clockwise; ///< as in Candidate
-  std::uint8_t rank;      ///< see normalAgreementRank; below CandidateLimits::sure_ranks
-  bool is_taken;          ///< it is in the consensus (see buildConsensus)
-};
-
-struct CandidateLists
-{
-  std::vector<SureTriangle> sure;  ///< ordered by their first corners
-  std::vector<Candidate> doubtful; ///< all others, in the same order
-  std::uint8_t sure_ranks = 0;     ///< exceeds the ranks of sure triangles
 };
 
 /// Number of classes of normal agreement, evenly spaced in the cosine from 1 to 0.
@@ -58,24 +40,25 @@ struct CandidateLimits
                                                              ///< circumradii over spacings
   std::array<float, 3> normal_agreement{0.4F, 0.2F, 0.1F};   ///< minimum for 1, 2 and 3 votes;
                                                              ///< cosines
-  std::uint8_t sure_ranks = 4; ///< classes of normal agreement in which a candidate of three votes
-                               ///< is sure, at most AGREEMENT_RANKS; 4: cosines above 0.875
+  std::size_t sure_ranks = 4; ///< classes of normal agreement in which a candidate of three votes
+                              ///< is sure, at most AGREEMENT_RANKS; 4: cosines above 0.875
 };
 
-/// Sets the normal agreement and `clockwise` from the corners. The normals are unit vectors.
-void
-setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
-                    const std::vector<Eigen::Vector3f>& normals, Candidate& candidate);
+/// A candidate of three votes with a good normal agreement. It enters the consensus unless it
+/// contradicts the orientation. Most triangles are of this kind.
+inline bool
+isSure (const Candidate& candidate, const CandidateLimits& limits)
+{
+  return candidate.votes == 3 && normalAgreementRank (candidate) < limits.sure_ranks;
+}
 
 /// The triangles of all stars that are within the limits, each once, ordered by their first corner
 /// and around it. O(entries of the stars).
 /// \param normals for the normal agreement: those of the stars, or others on the same side
 /// \param spacing of each point (see localSpacing)
-/// \param rows    first corners to search; all arrays must be valid at the corners of their
-///     candidates
-CandidateLists
+std::vector<Candidate>
 findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
                 const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const Rows& rows, const CandidateLimits& limits, const RunContext& run);
+                const CandidateLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -55,36 +55,17 @@ public:
 
   // Accepts a candidate if it fits. The sectors of one star do not overlap, so candidates of three
   // votes that are offered first need no test of sectors.
-  bool offer (const SureTriangle& candidate)
-  {
-    if (!orientation_.join (candidate.corners, candidate.clockwise)) {
-      seam_.push_back (candidate.corners);
-      return false;
-    }
-    occupy (candidate.corners);
-    return true;
-  }
-
-  void offer (const Candidate& candidate, bool test_sectors)
+  // \return whether it is accepted
+  bool offer (const Candidate& candidate, bool test_sectors)
   {
     if (test_sectors && overlapsTaken (candidate.corners))
-      return;
-    if (!orientation_.join (candidate.corners, candidate.clockwise)) {
-      if (candidate.votes == 3)
-        seam_.push_back (candidate.corners);
-      return;
-    }
-    occupy (candidate.corners);
-    taken_.push_back (&candidate);
-  }
-
-  // The accepted doubtful candidates, ordered by their first corners.
-  const std::vector<const Candidate*>& takenInOrder ()
-  {
-    std::stable_sort (taken_.begin (), taken_.end (), [] (const Candidate* a, const Candidate* b) {
-      return a->corners[0] < b->corners[0];
-    });
-    return taken_;
+      return false;
+    const bool fits = orientation_.join (candidate.corners, candidate.clockwise);
+    if (fits)
+      occupy (candidate.corners);
+    else if (candidate.votes == 3)
+      seam_.push_back (candidate.corners);
+    return fits;
   }
 
   Orientation& orientation () { return orientation_; }
@@ -141,7 +122,6 @@ private:
   Orientation orientation_;
   std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
   std::vector<TakenSector> sectors_;
-  std::vector<const Candidate*> taken_;
   std::vector<Triangle> seam_;
 };
 
@@ -163,54 +143,17 @@ putInOrder (std::vector<const Candidate*>& candidates)
   return static_cast<std::size_t> (fewer_votes - candidates.begin ());
 }
 
-void
-append (const Triangle& corners, std::uint8_t votes, Consensus& consensus)
-{
-  consensus.triangles.push_back (corners);
-  consensus.votes.push_back (votes);
-}
-
-// Collects the accepted triangles, ordered by their first corners.
-void
-collect (ConsensusBuilder& builder, const CandidateLists& candidates, std::size_t sure_taken,
-         Consensus& consensus, const RunContext& run)
-{
-  Orientation& orientation = builder.orientation ();
-  const std::vector<const Candidate*>& doubtful = builder.takenInOrder ();
-  consensus.triangles.reserve (sure_taken + doubtful.size ());
-  consensus.votes.reserve (sure_taken + doubtful.size ());
-  auto next = doubtful.begin ();
-  const auto appendDoubtfulBefore = [&] (Index p) {
-    for (; next != doubtful.end () && (*next)->corners[0] < p; ++next)
-      append (orientation.turned ((*next)->corners, (*next)->clockwise), (*next)->votes, consensus);
-  };
-  const std::vector<SureTriangle>& sure = candidates.sure;
-  ProgressLoop progress (run);
-  for (std::size_t i = 0, end = 0; i < sure.size (); i = end) {
-    progress.next ();
-    const Index p = sure[i].corners[0];
-    appendDoubtfulBefore (p);
-    while (end < sure.size () && sure[end].corners[0] == p)
-      ++end;
-    for (std::uint8_t rank = 0; rank < candidates.sure_ranks; ++rank)
-      for (std::size_t j = i; j < end; ++j)
-        if (sure[j].rank == rank && sure[j].is_taken)
-          append (orientation.turned (sure[j].corners, sure[j].clockwise), 3, consensus);
-  }
-  appendDoubtfulBefore (NONE);
-  consensus.seam.swap (builder.seam ());
-}
-
 } // namespace
 
 Consensus
-buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& candidates,
+buildConsensus (const std::vector<Eigen::Vector3d>& positions,
+                const std::vector<Candidate>& candidates, const CandidateLimits& limits,
                 std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
   std::vector<const Candidate*> doubtful;
-  doubtful.reserve (candidates.doubtful.size ());
-  for (const Candidate& candidate : candidates.doubtful)
-    doubtful.push_back (&candidate);
+  for (const Candidate& candidate : candidates)
+    if (!isSure (candidate, limits))
+      doubtful.push_back (&candidate);
   run.poll ();
   const std::size_t of_three_votes = putInOrder (doubtful);
   run.poll ();
@@ -218,25 +161,38 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& c
   ConsensusBuilder builder (positions, normals);
   for (std::size_t i = of_three_votes; i < doubtful.size (); ++i)
     builder.watch (doubtful[i]->corners);
-  std::size_t sure_taken = 0;
-  const std::uint8_t sure_ranks = candidates.sure_ranks;
-  ProgressLoop progress (run, sure_ranks * candidates.sure.size () + doubtful.size ());
-  for (std::uint8_t rank = 0; rank < sure_ranks; ++rank)
-    for (SureTriangle& sure : candidates.sure) {
+  std::vector<Index> taken; // candidates
+  const auto offer = [&] (const Candidate& candidate, bool test_sectors) {
+    if (builder.offer (candidate, test_sectors))
+      taken.push_back (static_cast<Index> (&candidate - candidates.data ()));
+  };
+  ProgressLoop progress (run, limits.sure_ranks * candidates.size () + doubtful.size ());
+  for (std::size_t rank = 0; rank < limits.sure_ranks; ++rank)
+    for (const Candidate& candidate : candidates) {
       progress.next ();
-      if (sure.rank == rank) {
-        sure.is_taken = builder.offer (sure);
-        sure_taken += sure.is_taken ? 1 : 0;
-      }
+      if (candidate.votes == 3 && normalAgreementRank (candidate) == rank)
+        offer (candidate, false);
     }
   builder.orientation ().vote (doubtful.data (), doubtful.data () + of_three_votes, run);
   for (std::size_t i = 0; i < doubtful.size (); ++i) {
     progress.next ();
-    builder.offer (*doubtful[i], i >= of_three_votes);
+    offer (*doubtful[i], i >= of_three_votes);
   }
 
+  const CsrLists by_corner = makeCsrLists (positions.size (), [&] (const auto& emit) {
+    for (const Index i : taken)
+      emit (candidates[i].corners[0], i);
+  });
   Consensus consensus;
-  collect (builder, candidates, sure_taken, consensus, run);
+  consensus.triangles.reserve (taken.size ());
+  consensus.votes.reserve (taken.size ());
+  for (const Index i : by_corner.ids) {
+    const Candidate& candidate = candidates[i];
+    consensus.triangles.push_back (
+        builder.orientation ().turned (candidate.corners, candidate.clockwise));
+    consensus.votes.push_back (candidate.votes);
+  }
+  consensus.seam = std::move (builder.seam ());
   builder.orientation ().turn (normals, run);
   return consensus;
 }

@@ -24,11 +24,12 @@ struct Consensus
 /// accepted if its sectors overlap no other one at its corners, and if it does not contradict the
 /// orientation of the triangles connected to it (see Orientation). O(n) for sure candidates, O(m
 /// log m) for m doubtful ones.
-/// \param candidates in: see findCandidates; out: accepted sure ones are marked
+/// \param candidates see findCandidates
 /// \param normals    in: unit normals by which the candidates were found; out: oriented like the
 ///     triangles
 Consensus
-buildConsensus (const std::vector<Eigen::Vector3d>& positions, CandidateLists& candidates,
+buildConsensus (const std::vector<Eigen::Vector3d>& positions,
+                const std::vector<Candidate>& candidates, const CandidateLimits& limits,
                 std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
 /// Keeps the fan of most votes around every point, and removes small islands. An island is an open

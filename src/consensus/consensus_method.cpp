@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus_method.h"
 
+#include "consensus/consensus.h"
 #include "consensus/orientation.h"
 #include "core/order_statistics.h"
 #include "floater/boundary/boundary.h"
@@ -11,6 +12,46 @@
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+// The consensus manifold, before its holes are filled.
+struct ConsensusMesh
+{
+  TriangleMesh mesh;
+  std::vector<Eigen::Vector3f> normals; // those of the stars, oriented like the mesh
+  std::vector<Triangle> seam;           // see Consensus
+};
+
+// Finds candidates, their consensus and its manifold part.
+// O(n + m log m) for m doubtful candidates.
+// \param positions by which the stars were made
+// \param neighbors of each point, nearest first
+// \param stars     of all points; freed when the candidates are found
+// \param spacing   of each point (see localSpacing)
+ConsensusMesh
+makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                   Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
+                   const RunContext& run)
+{
+  // Mean normals at sharp edges, where both faces are visible from them.
+  std::vector<Eigen::Vector3f> smoothed =
+      smoothedNormals (positions, neighbors, stars.normals, run);
+  std::vector<Candidate> candidates =
+      findCandidates (positions, stars, smoothed, spacing, limits.candidates, run);
+  ConsensusMesh made;
+  made.normals = std::move (stars.normals);
+  stars = {};
+  Consensus consensus = buildConsensus (positions, candidates, limits.candidates, smoothed, run);
+  candidates = {};
+  made.seam = std::move (consensus.seam);
+  made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
+  for (std::size_t p = 0; p < made.normals.size (); ++p)
+    if (made.normals[p].dot (smoothed[p]) < 0.0F)
+      made.normals[p] = -made.normals[p];
+  return made;
+}
+
+} // namespace
+
 Boundary
 consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
                const RunContext& run, const ConsensusLoopLimits& limits)
@@ -48,6 +89,32 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
 }
 
 namespace {
+// Decides which loops stay open, widens those by the automatic policy (see widenHoles), and fills the
+// others. O(n) plus judgeLoops () and fillHoles ().
+void
+closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometry,
+            const HoleOptions& holes, const SurfaceLimits& limits, const RunContext& run)
+{
+  TriangleMesh& mesh = surface.mesh;
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  const MeshComponents components = findComponents (mesh, run);
+  std::vector<BoundaryLoop> loops =
+      findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
+  const std::vector<LoopJudgement> judgements =
+      holes.policy == HolePolicy::AUTO
+          ? widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals,
+                        limits.open_loops, limits.hole_widening, run)
+          : judgeLoops (mesh, loops, positions, geometry.neighbors, normals, limits.open_loops,
+                        run);
+  chooseOpenLoops (loops, judgements, components.count, holes, 1.0 / points.scale);
+  const TriangleCost cost (positions, normals, nullptr, limits.finish.cost);
+  surface.holes_filled = fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
+  for (std::size_t i = 0; i < loops.size (); ++i)
+    if (isDoubtful (judgements[i], limits.open_loops))
+      surface.doubtful_loops.push_back ({std::move (loops[i]), judgements[i]});
+}
+
 // Leaves out the loops that were to stay open, but are no boundary any more.
 void
 leaveOutClosed (const TriangleMesh& mesh, std::vector<JudgedLoop>& loops, const RunContext& run)
@@ -82,10 +149,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   geometry.stars.normals = std::move (consensus.normals);
 
   run.beginStage (Stage::HOLES);
-  ClosedHoles closed = closeHoles (surface.mesh, points.workingPositions (), geometry,
-                                   1.0 / points.scale, settings.holes, limits.holeClosing (), run);
-  surface.holes_filled = closed.filled;
-  surface.doubtful_loops = std::move (closed.doubtful);
+  closeHoles (surface, points, geometry, settings.holes, limits, run);
   orientMissingNormals (surface.mesh, geometry.neighbors, geometry.stars.normals, run);
 
   run.beginStage (Stage::FLIPS);

@@ -3,16 +3,37 @@
 // The consensus method: surfaces of any topology, from the triangles that stars agree on.
 #pragma once
 
-#include "consensus/consensus_mesh.h"
+#include "consensus/candidates.h"
 #include "floater/boundary/boundary.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
+#include "mesh/hole_filling.h"
+#include "mesh/hole_widening.h"
 #include "mesh/loops.h"
 #include "points/points.h"
 
 #include <vector>
 
 namespace pcl::floater {
+/// Limits of the consensus mesh.
+struct ConsensusLimits
+{
+  CandidateLimits candidates;
+  std::size_t smallest_island = 32; ///< triangles; smaller islands are dropped (see manifoldPart).
+                                    ///< Chosen by hand; no measurement is recorded
+  std::size_t shortest_seam = 8;    ///< triangles; a shorter row is no sign of a one-sided surface
+                                    ///< (see findOrientationSeam). Measured: scans of two-sided
+                                    ///< surfaces had rows of up to 5, Moebius strips 4 spacings
+                                    ///< wide rows of 8, and strips 12 spacings wide rows of 37
+};
+
+/// A boundary loop of the consensus mesh, and its judgement.
+struct JudgedLoop
+{
+  BoundaryLoop loop;
+  LoopJudgement judgement;
+};
+
 /// The limits of all steps of consensusLoop.
 struct ConsensusLoopLimits
 {
@@ -40,11 +61,6 @@ struct SurfaceLimits
   HoleWideningLimits hole_widening;
   HoleFillingLimits hole_filling;
   FinishLimits finish;
-
-  HoleClosingLimits holeClosing () const
-  {
-    return {open_loops, hole_widening, hole_filling, finish.cost};
-  }
 };
 
 struct SurfaceSettings

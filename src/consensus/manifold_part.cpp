@@ -3,9 +3,9 @@
 #include "consensus/consensus.h"
 
 #include "core/parallel.h"
+#include "mesh/vertex_stars.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -59,51 +59,19 @@ private:
   // Points whose triangles are not just one fan.
   std::set<Index> pointsToPrune (const RunContext& run) const
   {
-    const std::size_t points = around_.rows ();
-    std::vector<std::vector<Index>> ranges ((points + RANGE_LENGTH - 1) / RANGE_LENGTH);
-    parallelRanges (run, points, [&] (std::size_t first, std::size_t last) {
-      for (std::size_t p = first; p < last; ++p)
-        if (!isOneFan (static_cast<Index> (p)))
-          ranges[first / RANGE_LENGTH].push_back (static_cast<Index> (p));
+    const TriangleRanges ranges (triangles_, around_.rows (), run);
+    std::vector<std::vector<Index>> found (ranges.count ());
+    parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+      const VertexStars stars (triangles_, ranges, r);
+      StarOrder order;
+      for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r); ++p)
+        if (!order.set (stars.of (p)) || !order.isOneFan ())
+          found[r].push_back (static_cast<Index> (p));
     });
-    std::set<Index> found;
-    for (const std::vector<Index>& range : ranges)
-      found.insert (range.begin (), range.end ());
-    return found;
-  }
-
-  // True if the triangles around p are one fan, open or closed.
-  bool isOneFan (Index p) const
-  {
-    constexpr std::size_t MOST = 32; // points with more triangles are left to keepLargestFan
-    const Row row = around_.row (p);
-    const std::size_t count = row.size ();
-    if (count == 0)
-      return true;
-    if (count > MOST)
-      return false;
-    std::array<Index, MOST> from{}, to{};
-    for (std::size_t i = 0; i < count; ++i) {
-      from[i] = after (row[i], p, 1);
-      to[i] = after (row[i], p, 2);
-      for (std::size_t j = 0; j < i; ++j)
-        if (from[j] == from[i] || to[j] == to[i])
-          return false; // two triangles have the same directed edge
-    }
-    const auto find = [count] (const std::array<Index, MOST>& list, Index q) {
-      return static_cast<std::size_t> (std::find (list.begin (), list.begin () + count, q) -
-                                       list.begin ());
-    };
-    std::size_t start = 0;
-    for (std::size_t i = 0; i < count && start == 0; ++i)
-      if (find (to, from[i]) == count)
-        start = i;
-    std::size_t walked = 0, i = start;
-    do { // to the end of an open fan, or once around a closed one: others may be beside it
-      ++walked;
-      i = find (from, to[i]);
-    } while (i < count && i != start);
-    return walked == count;
+    std::set<Index> points;
+    for (const std::vector<Index>& range : found)
+      points.insert (range.begin (), range.end ());
+    return points;
   }
 
   void keepLargestFan (Index p)

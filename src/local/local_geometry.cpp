@@ -63,14 +63,14 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
   LocalGeometry geometry;
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
-  if (begun)
-    geometry.stars = finishStars (positions, planes.neighbors, planes.normals, std::move (*begun),
-                                  settings, run);
-  else {
+  if (!begun) {
     const std::optional<BeyondNeighbors> beyond = beyondNeighbors (planes, settings);
-    geometry.stars = makeStars (positions, planes.neighbors, planes.normals, settings, run,
-                                beyond ? &*beyond : nullptr);
+    begun = beginStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
+                        settings, run, beyond ? &*beyond : nullptr);
   }
+  geometry.stars = settings.reach_beyond ? finishStars (positions, planes.neighbors, planes.normals,
+                                                        std::move (*begun), settings, run)
+                                         : std::move (*begun);
   geometry.neighbors = std::move (planes.neighbors);
   geometry.spacing = std::move (planes.spacing);
   if (!settings.reach_beyond)
@@ -81,15 +81,6 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
     geometry.spacing[p] =
         std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;
-}
-
-LocalGeometry
-makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run)
-{
-  return makeLocalGeometry (
-      points, fitLocalPlanes (points, std::move (neighbors), std::nullopt, settings, run), settings,
-      run);
 }
 
 } // namespace pcl::floater

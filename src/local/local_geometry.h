@@ -59,9 +59,4 @@ LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
                    const RunContext& run, std::optional<Stars> begun = std::nullopt);
 
-/// Planes and stars at once.
-LocalGeometry
-makeLocalGeometry (const Points& points, CsrLists neighbors, const StarSettings& settings,
-                   const RunContext& run);
-
 } // namespace pcl::floater

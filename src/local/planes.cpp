@@ -110,18 +110,16 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 
 std::vector<Eigen::Vector3f>
 smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-                 const RunContext& run)
+                 const std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
-  std::vector<Eigen::Vector3f> smoothed_normals (normals.size (), Eigen::Vector3f::Zero ());
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Index p = rows[i];
+  std::vector<Eigen::Vector3f> smoothed (normals.size ());
+  parallelRanges (run, normals.size (), [&] (std::size_t first, std::size_t last) {
+    for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Eigen::Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();
-      smoothed_normals[p] = std::abs (mean.dot (normals[p])) < EDGE ? mean : normals[p];
+      smoothed[p] = std::abs (mean.dot (normals[p])) < EDGE ? mean : normals[p];
     }
   });
-  return smoothed_normals;
+  return smoothed;
 }
 
 } // namespace pcl::floater

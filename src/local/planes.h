@@ -77,10 +77,8 @@ meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
 
 /// The mean normal of each point where it is more than 26 degrees off the point's normal; otherwise
 /// the point's normal. O(n).
-/// \param rows points to compute; others are zero
 std::vector<Eigen::Vector3f>
 smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-                 const RunContext& run);
+                 const std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
 } // namespace pcl::floater

@@ -25,29 +25,6 @@ agreeingShare (const Stars& stars, Index p)
   return triangles == 0 ? 0.0F : static_cast<float> (agreeing) / static_cast<float> (triangles);
 }
 
-// Spacings from which on points are far, and around far ones.
-struct FarSpacing
-{
-  FarSpacing (std::vector<float> spacing, const ScatterLimits& limits)
-      : middle (static_cast<double> (median (spacing))), far_away (limits.far_spacing * middle),
-        around (limits.around_far * middle)
-  {
-  }
-
-  double middle, far_away, around;
-};
-
-// Whether enough points are far to look for scatter among them.
-bool
-hasFarPoints (const std::vector<float>& spacing, const ScatterLimits& limits)
-{
-  const double least = FarSpacing (spacing, limits).far_away;
-  return static_cast<std::size_t> (
-             std::count_if (spacing.begin (), spacing.end (), [least] (float x) {
-               return static_cast<double> (x) >= least;
-             })) >= limits.least_far;
-}
-
 } // namespace
 
 std::vector<Index>
@@ -56,10 +33,15 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
 {
   constexpr std::size_t NEAREST = 20;
   const bool may_be_uneven = !noise.unevenness.empty ();
-  const bool may_be_far = hasFarPoints (geometry.spacing, limits);
+  std::vector<float> spacings = geometry.spacing;
+  const auto middle = static_cast<double> (median (spacings));
+  const double far_away = limits.far_spacing * middle, around_far = limits.around_far * middle;
+  const auto far_points = std::count_if (spacings.begin (), spacings.end (), [&] (float x) {
+    return static_cast<double> (x) >= far_away;
+  });
+  const bool may_be_far = static_cast<std::size_t> (far_points) >= limits.least_far;
   if (!may_be_uneven && !may_be_far)
     return {};
-  const FarSpacing far_spacing (geometry.spacing, limits);
   const std::size_t n = geometry.spacing.size ();
   std::vector<float> share (n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
@@ -73,7 +55,7 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
     for (std::size_t p = first; p < last; ++p) {
       const double unevenness = may_be_uneven ? static_cast<double> (noise.unevenness[p]) : 0.0;
       const auto spacing = static_cast<double> (geometry.spacing[p]);
-      const bool is_distant = may_be_far && spacing >= far_spacing.around;
+      const bool is_distant = may_be_far && spacing >= around_far;
       if (unevenness < limits.weak_unevenness && !is_distant)
         continue;
       const Row row = geometry.neighbors.first (static_cast<Index> (p), NEAREST);
@@ -87,7 +69,7 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
         strewn.value[p] = noise.dimension[p];
       }
       distant.is_inside[p] = is_distant && around <= limits.strong_share ? 1 : 0;
-      distant.is_counted[p] = spacing >= far_spacing.far_away ? 1 : 0;
+      distant.is_counted[p] = spacing >= far_away ? 1 : 0;
       distant.value[p] = around <= limits.far_share ? 1.0F : 0.0F;
     }
   });

@@ -299,9 +299,6 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
   if (4.0 * sqr_radius <= centre.sqr_searched ||
       sqr_radius > centre.farthest * centre.farthest / 4.0)
     return;
-  const auto circle = std::make_pair (a.point, b.point);
-  if (std::find (empty_circles_.begin (), empty_circles_.end (), circle) != empty_circles_.end ())
-    return;
   const Eigen::Vector3d& here = positions_[centre.point];
   const auto is_inside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
     const Eigen::Vector3d offset = position - here;
@@ -312,8 +309,6 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
   tree_.nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (), radius,
                    limits_.added, is_inside, found_);
   tree_.looked (here, radius + reachOfSearch (found_, limits_.added, radius));
-  if (found_.empty ())
-    empty_circles_.push_back (circle);
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -323,7 +318,6 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   added_.clear ();
-  empty_circles_.clear ();
   const double farthest = limits_.farthest * static_cast<double> (spacing_[p]);
   const double sqr_searched =
       nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();

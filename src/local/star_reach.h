@@ -132,7 +132,6 @@ private:
   ReachLimits limits_;
   PlanarStar planar_star_;
   std::vector<Index> added_;
-  std::vector<std::pair<Index, Index>> empty_circles_; // of two neighbours and the centre
   std::vector<Neighbor> found_;
 };
 

@@ -284,13 +284,10 @@ finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neig
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run, const BeyondNeighbors* beyond)
+           const RunContext& run)
 {
-  Stars stars = beginStars (positions, neighbors, normals, Rows::all (positions.size ()), settings,
-                            run, beyond);
-  if (beyond == nullptr)
-    return stars;
-  return finishStars (positions, neighbors, normals, std::move (stars), settings, run);
+  return beginStars (positions, neighbors, normals, Rows::all (positions.size ()), settings, run,
+                     nullptr);
 }
 
 Stars

@@ -49,7 +49,7 @@ struct Stars
                                                  ///< centre in the plane, with the length in space
   std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
   std::vector<Eigen::Vector3f> normals;
-  CsrLists far_neighbors;   ///< of each point: far neighbours tested for its star; see makeStars
+  CsrLists far_neighbors;   ///< of each point: far neighbours tested for its star; see finishStars
   std::vector<float> reach; ///< maximum reach of a star and those around, see reachOf; empty if no
                             ///< star was to reach farther
 };
@@ -64,16 +64,15 @@ struct Stars
 /// 4. if this star is open too, use all neighbours if their star is closed.
 /// If the star is open in all tiers, tier 1 is used.
 ///
-/// Stars may reach beyond the neighbours (see StarReach). Far neighbours across a hole, too far for
-/// the reach of both ends, are removed again. O(n k log k).
+/// O(n k log k).
 /// \param normals of each point; stars of tier 2 replace theirs
-/// \param beyond  nullptr: only `neighbors` are used
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run, const BeyondNeighbors* beyond = nullptr);
+           const RunContext& run);
 
-/// First step of makeStars (), for a piece of a cloud: each star by itself. Arrays have an entry for
+/// First step of stars that may reach beyond the neighbours (see StarReach): each star by itself, also
+/// for a piece of a cloud. Arrays have an entry for
 /// each of its points; stars of `rows` are made. The normals of the points around are read and must
 /// be in the piece.
 Stars
@@ -82,7 +81,7 @@ beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neigh
             const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond);
 
 /// Second step, for all stars: sets each reach to the maximum around, then removes far neighbours
-/// across holes. makeStars () with BeyondNeighbors is both steps.
+/// across a hole again: those too far for the reach of both ends.
 /// \param begun results of the first step
 Stars
 finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,

@@ -25,23 +25,20 @@ public:
   /// \param box_of (i): box of type Eigen::AlignedBox3d
   template <typename BoxOf>
   BoxTree (std::size_t count, BoxOf&& box_of, const RunContext& run)
-      : leaves_ ((count + LEAF_SIZE - 1) / LEAF_SIZE)
+      : boxes_ (count), levels_{std::vector<Box> ((count + LEAF_SIZE - 1) / LEAF_SIZE)}
   {
-    levels_.emplace_back (leaves_.size ());
-    parallelRanges (run, leaves_.size (), [&] (std::size_t first, std::size_t last) {
+    parallelRanges (run, leaves (), [&] (std::size_t first, std::size_t last) {
       for (std::size_t leaf = first; leaf < last; ++leaf)
-        for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
-          const std::size_t i = leaf * LEAF_SIZE + k;
-          const Box box = i < count ? roundOutwards (box_of (i)) : Box{};
-          leaves_[leaf].set (k, box);
-          levels_.front ()[leaf].extend (box);
+        for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i) {
+          boxes_[i] = roundOutwards (box_of (i));
+          levels_.front ()[leaf].extend (boxes_[i]);
         }
     });
     while (levels_.back ().size () > FAN)
       levels_.push_back (groups (levels_.back ()));
   }
 
-  std::size_t leaves () const { return leaves_.size (); }
+  std::size_t leaves () const { return levels_.front ().size (); }
 
   /// Calls visit (i, j) for all boxes i of a range of leaves and j that overlap or touch, i < j.
   /// All leaves together give each pair once.
@@ -70,10 +67,9 @@ public:
   {
     const Box box = roundOutwards (exact);
     forLeaves (box, 0, [&] (std::size_t leaf) {
-      const Leaf::Hits is_hit = leaves_[leaf].overlaps (box);
-      for (std::size_t m = 0; m < LEAF_SIZE; ++m)
-        if (is_hit[m] != 0)
-          visit (leaf * LEAF_SIZE + m);
+      for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
+        if (boxes_[i].overlaps (box))
+          visit (i);
     });
   }
 
@@ -85,11 +81,10 @@ public:
                     Visit&& visit) const
   {
     const Ray ray (origin, direction);
-    forNodes ([&] (const Box& box) { return ray.meets (box.low, box.high); },
+    forNodes ([&] (const Box& box) { return ray.meets (box); },
               [&] (std::size_t leaf) {
-                const Leaf::Hits is_hit = leaves_[leaf].along (ray);
-                for (std::size_t m = 0; m < LEAF_SIZE; ++m)
-                  if (is_hit[m] != 0 && visit (leaf * LEAF_SIZE + m))
+                for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
+                  if (ray.meets (boxes_[i]) && visit (i))
                     return true;
                 return false;
               });
@@ -98,8 +93,7 @@ public:
   /// Replaces box i. Nodes around it only grow: many distant changes make searches slower.
   void set (std::size_t i, const Eigen::AlignedBox3d& exact)
   {
-    const Box box = roundOutwards (exact);
-    leaves_[i / LEAF_SIZE].set (i % LEAF_SIZE, box);
+    const Box box = boxes_[i] = roundOutwards (exact);
     std::size_t node = i / LEAF_SIZE;
     for (std::vector<Box>& level : levels_) {
       level[node].extend (box);
@@ -143,14 +137,14 @@ private:
       }
     }
 
-    bool meets (const std::array<float, 3>& low, const std::array<float, 3>& high) const
+    bool meets (const Box& box) const
     {
       double begin = 0.0, end = std::numeric_limits<double>::infinity ();
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<Eigen::Index> (axis);
         const bool ascends = inverse[a] > 0.0;
-        const double first = static_cast<double> (ascends ? low[axis] : high[axis]);
-        const double last = static_cast<double> (ascends ? high[axis] : low[axis]);
+        const double first = static_cast<double> (ascends ? box.low[axis] : box.high[axis]);
+        const double last = static_cast<double> (ascends ? box.high[axis] : box.low[axis]);
         begin = std::max (begin, (first - origin[a]) * inverse[a]);
         end = std::min (end, (last - origin[a]) * inverse[a]);
       }
@@ -160,74 +154,15 @@ private:
     Eigen::Vector3d origin, inverse;
   };
 
-  // Boxes as a structure of arrays, so that one box is compared with all at once.
-  struct Leaf
-  {
-    using Row = std::array<float, LEAF_SIZE>;
-    using Hits = std::array<int, LEAF_SIZE>; // 1: overlaps
-
-    std::array<Row, 3> low, high;
-
-    void set (std::size_t k, const Box& box)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis][k] = box.low[axis];
-        high[axis][k] = box.high[axis];
-      }
-    }
-
-    Box at (std::size_t k) const
-    {
-      return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}};
-    }
-
-    Hits overlaps (const Box& box) const
-    {
-      Hits is_hit;
-      for (std::size_t k = 0; k < LEAF_SIZE; ++k)
-        is_hit[k] = static_cast<int> (low[0][k] <= box.high[0]) &
-                    static_cast<int> (box.low[0] <= high[0][k]) &
-                    static_cast<int> (low[1][k] <= box.high[1]) &
-                    static_cast<int> (box.low[1] <= high[1][k]) &
-                    static_cast<int> (low[2][k] <= box.high[2]) &
-                    static_cast<int> (box.low[2] <= high[2][k]);
-      return is_hit;
-    }
-
-    Hits along (const Ray& ray) const
-    {
-      std::array<double, LEAF_SIZE> begin{}, end;
-      end.fill (std::numeric_limits<double>::infinity ());
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double origin = ray.origin[static_cast<Eigen::Index> (axis)];
-        const double inverse = ray.inverse[static_cast<Eigen::Index> (axis)];
-        const Row& first = inverse > 0.0 ? low[axis] : high[axis];
-        const Row& last = inverse > 0.0 ? high[axis] : low[axis];
-        for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
-          begin[k] = std::max (begin[k], (static_cast<double> (first[k]) - origin) * inverse);
-          end[k] = std::min (end[k], (static_cast<double> (last[k]) - origin) * inverse);
-        }
-      }
-      Hits is_hit;
-      for (std::size_t k = 0; k < LEAF_SIZE; ++k)
-        is_hit[k] = begin[k] <= end[k] ? 1 : 0;
-      return is_hit;
-    }
-  };
-
   // Calls visit (i, j) for all boxes i of a leaf and j of another one, or of the same, i < j.
   template <typename Visit>
   void compare (std::size_t leaf, std::size_t other, Visit&& visit) const
   {
-    for (std::size_t k = 0; k < LEAF_SIZE; ++k) {
-      const Box box = leaves_[leaf].at (k);
-      if (!box.overlaps (levels_.front ()[other]))
-        continue;
-      const Leaf::Hits is_hit = leaves_[other].overlaps (box);
-      for (std::size_t m = other == leaf ? k + 1 : 0; m < LEAF_SIZE; ++m)
-        if (is_hit[m] != 0)
-          visit (leaf * LEAF_SIZE + k, other * LEAF_SIZE + m);
-    }
+    for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
+      if (boxes_[i].overlaps (levels_.front ()[other]))
+        for (std::size_t k = other == leaf ? i + 1 : other * LEAF_SIZE; k < endOf (other); ++k)
+          if (boxes_[i].overlaps (boxes_[k]))
+            visit (i, k);
   }
 
   // Calls visit for the leaves from `first` on that overlap a box.
@@ -273,6 +208,12 @@ private:
     }
   }
 
+  // One past the last box of a leaf.
+  std::size_t endOf (std::size_t leaf) const
+  {
+    return std::min (boxes_.size (), (leaf + 1) * LEAF_SIZE);
+  }
+
   static Box roundOutwards (const Eigen::AlignedBox3d& exact)
   {
     Box box;
@@ -300,7 +241,7 @@ private:
   static constexpr unsigned LOG_FAN = 2;
   static_assert (std::size_t{1} << LOG_FAN == FAN, "the logarithm of the fan");
 
-  std::vector<Leaf> leaves_;
+  std::vector<Box> boxes_;
   std::vector<std::vector<Box>> levels_; // boxes of the leaves, then of the nodes above
 };
 

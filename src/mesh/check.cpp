@@ -147,7 +147,8 @@ private:
       found.long_edges.add ({1, p});
       found.longest_inside.take (edge);
     }
-    if (isFold (areaVectorOf (e.triangle), areaVectorOf (other)))
+    if (isFold (areaVectorOf (mesh_.triangles[e.triangle], positions_),
+                areaVectorOf (mesh_.triangles[other], positions_)))
       found.folds.add ({1, p});
   }
 
@@ -160,12 +161,6 @@ private:
     const MeshEdge mate = mesh_.mate (e);
     return mesh_.from (mate) == mesh_.to (e) && mesh_.to (mate) == mesh_.from (e) &&
            mesh_.neighbors[mate.triangle][mate.side] == e.triangle;
-  }
-
-  Eigen::Vector3d areaVectorOf (Index t) const
-  {
-    const auto [a, b, c] = mesh_.triangles[t];
-    return areaVector (positions_[a], positions_[b], positions_[c]);
   }
 
   const TriangleMesh& mesh_;

@@ -117,11 +117,7 @@ private:
     Eigen::Vector3d normal;
   };
 
-  Eigen::Vector3d normalOf (Index t) const
-  {
-    const Triangle& c = mesh_.triangles[t];
-    return areaVector (positions_[c[0]], positions_[c[1]], positions_[c[2]]);
-  }
+  Eigen::Vector3d normalOf (Index t) const { return areaVectorOf (mesh_.triangles[t], positions_); }
 
   void readLoops ()
   {

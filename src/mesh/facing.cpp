@@ -3,14 +3,392 @@
 #include "mesh/facing.h"
 
 #include "core/parallel.h"
-#include "mesh/facing_judge.h"
+#include "mesh/facing_objects.h"
+#include "mesh/visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <unordered_map>
+#include <optional>
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+// Confidence in rooms, since a box may have windows; and the share of all directions in which only one
+// side of a bowl or of half a body is visible, at which either is as likely: by generated clouds.
+constexpr double ROOM_CERTAINTY = 0.8, BOWL = 0.3;
+
+// Decides the front of each object.
+class FacingJudge
+{
+public:
+  FacingJudge (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const MeshComponents& found, const FacingObjects& objects, const FacingHints& hints,
+               const FacingLimits& limits, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
+        limits_ (limits), run_ (run), judged_ (objects.sums.size ()),
+        is_turned_ (objects.sums.size (), 0), is_body_ (objects.sums.size (), 0)
+  {
+  }
+
+  void judge ()
+  {
+    const bool is_scan = hints_.sensor && !hints_.faces_sensor &&
+                         (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS) &&
+                         isSeenFrom (*hints_.sensor);
+    std::vector<Index> open;
+    for (Index o = 0; o < judged_.size (); ++o) {
+      const FacingSums& sums = objects_.sums[o];
+      FacingObject& object = judged_[o];
+      object.triangles = sums.triangles;
+      object.at = sums.at;
+      object.mean_normal = sums.meanNormal ();
+      const bool by_side = hints_.wantsASide ();
+      is_body_[o] = sums.is_closed ? 1 : 0;
+      if (hints_.normals != nullptr && sums.told == 0.0)
+        object.miss = sums.contradictory > 0.0           ? FacingMiss::CONTRADICTION
+                      : hints_.wanted == Facing::NORMALS ? FacingMiss::NO_NORMALS
+                                                         : FacingMiss::NOTHING;
+      if (sums.told > 0.0)
+        decide (o, FacingRule::NORMALS, sums.along < 0.0,
+                0.5 + 0.5 * std::abs (sums.along) / sums.told);
+      else if (hints_.wanted == Facing::UP && !sums.is_closed)
+        decideUp (o);
+      else if (hints_.wanted == Facing::VIEWPOINT && isTowardsOneSide (sums) &&
+               (sums.is_closed || !hints_.faces_sensor))
+        decideBySensor (o);
+      else if (sums.is_closed) {
+        if (hints_.wanted == Facing::UP || hints_.wanted == Facing::VIEWPOINT)
+          object.miss = FacingMiss::CLOSED;
+        decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
+      }
+      else if (!by_side && hints_.faces_sensor)
+        decide (o, FacingRule::SENSOR, false, 1.0);
+      else if (!by_side && is_scan && std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
+        decideBySensor (o);
+      else if (!by_side && isRoom (sums, limits_)) {
+        is_body_[o] = 0; // furniture is no wall of a hollow
+        decide (o, FacingRule::ROOM, sums.volume > 0.0, ROOM_CERTAINTY);
+      }
+      // The back side is visible from at least |mean normal| of all directions: all light through
+      // the openings reaches it.
+      else if (!by_side && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
+        decideSheet (o, 1.0);
+      else
+        open.push_back (o);
+    }
+    judgeOpen (open);
+    judgeNested ();
+    if (hints_.wanted == Facing::INWARDS)
+      for (std::uint8_t& is_turned : is_turned_)
+        is_turned ^= 1U;
+  }
+
+  const std::vector<FacingObject>& objects () const { return judged_; }
+  bool isTurned (Index object) const { return is_turned_[object] != 0; }
+
+private:
+  // A closed component has one side towards the sensor only if the sensor is within it.
+  bool isTowardsOneSide (const FacingSums& sums) const
+  {
+    return !sums.is_closed || std::abs (sums.seen) > limits_.within_share * sums.in_sight;
+  }
+
+  void decideBySensor (Index o)
+  {
+    const FacingSums& sums = objects_.sums[o];
+    const double share = sums.in_sight > 0.0 ? std::abs (sums.seen) / sums.in_sight : 0.0;
+    decide (o, FacingRule::SENSOR, sums.seen < 0.0, 0.5 + 0.5 * share);
+  }
+
+  void decideUp (Index o)
+  {
+    const FacingSums& sums = objects_.sums[o];
+    if (sums.from_above <= limits_.flatness * sums.area) // upright
+      decide (o, FacingRule::UP, facesDown (sums.area_vector, limits_), 0.5);
+    else
+      decide (o, FacingRule::UP, sums.area_vector.z () < 0.0,
+              0.5 + 0.5 * std::abs (sums.area_vector.z ()) / sums.from_above);
+  }
+
+  // Orients an open object outwards, even if it hardly is a body.
+  void decideOutwards (Index o, double body, double chance)
+  {
+    if (std::abs (body) >= 2.0 * chance) { // two standard deviations: chance in one case of twenty
+      decide (o, FacingRule::BODY, body < 0.0, certaintyOf ((std::abs (body) + chance) / chance));
+      return;
+    }
+    const double bulge = bulgeOf (o);
+    decide (o, FacingRule::BULGE,
+            bulge == 0.0 ? facesDown (objects_.sums[o].area_vector, limits_) : bulge < 0.0,
+            0.5 + 0.5 * std::abs (bulge));
+  }
+
+  double bulgeOf (Index o)
+  {
+    if (bulges_.empty ())
+      bulges_ = bulgesOf (mesh_, positions_, found_, objects_, limits_.flatness);
+    return bulges_[o];
+  }
+
+  // How far all that stands bulges to the side that facesDown () makes the front. Parts of a scan
+  // bulge to either side, but face the same one.
+  double commonBulge ()
+  {
+    double sum = 0.0, area = 0.0;
+    for (Index o = 0; !common_bulge_ && o < judged_.size (); ++o) {
+      const FacingSums& sums = objects_.sums[o];
+      if (sums.is_closed || !isUpright (sums.area_vector, limits_))
+        continue;
+      sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector, limits_) ? -1.0 : 1.0);
+      area += sums.area;
+    }
+    if (!common_bulge_)
+      common_bulge_ = area > 0.0 ? sum / area : 0.0;
+    return *common_bulge_;
+  }
+
+  // Terrain faces up. What stands was scanned from the side to which it bulges, if it does.
+  void decideSheet (Index o, double certainty)
+  {
+    const Eigen::Vector3d& normal = objects_.sums[o].area_vector;
+    const bool is_down = facesDown (normal, limits_);
+    const double bulge = isUpright (normal, limits_) ? commonBulge () : 0.0;
+    if (std::abs (bulge) >= limits_.bulge)
+      decide (o, FacingRule::BULGE, is_down != (bulge < 0.0), 0.5 + 0.5 * std::abs (bulge));
+    else
+      decide (o, FacingRule::SHEET, is_down, std::min (certainty, certaintyOfUp (normal)));
+  }
+
+  void decide (Index o, FacingRule rule, bool is_turned, double certainty)
+  {
+    judged_[o].rule = rule;
+    judged_[o].certainty = certainty;
+    is_turned_[o] = is_turned ? 1 : 0;
+  }
+
+  Index objectOf (Index triangle) const
+  {
+    return objects_.of_component[found_.of_triangle[triangle]];
+  }
+
+  // Lines of sight through these objects, towards their fronts.
+  std::vector<SightLine> linesThrough (const std::vector<Index>& objects) const
+  {
+    std::vector<std::optional<SightLineSampler>> samplers (judged_.size ());
+    for (const Index o : objects)
+      samplers[o].emplace (objects_.sums[o].area,
+                           std::clamp (objects_.sums[o].triangles / limits_.triangles_per_line,
+                                       limits_.fewest_lines, limits_.lines));
+    std::vector<SightLine> lines;
+    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+      const Index component = found_.of_triangle[t];
+      std::optional<SightLineSampler>& sampler = samplers[objects_.of_component[component]];
+      if (!sampler)
+        continue;
+      const Eigen::Vector3d normal = areaVectorOf (mesh_.triangles[t], positions_);
+      const double area = normal.norm ();
+      if (area > 0.0)
+        sampler->add (t, area, middleOf (mesh_.triangles[t], positions_),
+                      objects_.sign (component) / area * normal, lines);
+    }
+    return lines;
+  }
+
+  // Whether most of the mesh is visible from the sensor.
+  bool isSeenFrom (const Eigen::Vector3d& sensor)
+  {
+    double area = 0.0;
+    for (const FacingSums& sums : objects_.sums)
+      area += sums.area;
+    SightLineSampler sampler (area, limits_.lines);
+    std::vector<SightLine> lines;
+    for (Index t = 0; t < mesh_.triangles.size (); ++t)
+      sampler.add (t, areaVectorOf (mesh_.triangles[t], positions_).norm (),
+                   middleOf (mesh_.triangles[t], positions_), Eigen::Vector3d::UnitZ (), lines);
+    std::size_t free = 0;
+    for (const SightLine& line : lines) {
+      bool is_free = true;
+      rays ().forHits (line.middle, sensor - line.middle, [&] (Index t, double at) {
+        is_free = t == line.triangle || at >= 1.0;
+        return !is_free;
+      });
+      free += is_free ? 1 : 0;
+    }
+    return static_cast<double> (free) >= limits_.seen_share * static_cast<double> (lines.size ());
+  }
+
+  const TriangleRays& rays ()
+  {
+    if (!rays_)
+      rays_.emplace (mesh_.triangles, positions_, run_);
+    return *rays_;
+  }
+
+  // Number of free lines of each object on either side.
+  struct Free
+  {
+    std::size_t lines = 0, front = 0, back = 0;
+  };
+  template <typename Blocks>
+  std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
+  {
+    const std::vector<SightLine> lines = linesThrough (objects);
+    const TriangleRays& tree = rays ();
+    const auto isFree = [&] (std::size_t i, const Eigen::Vector3d& direction) {
+      bool is_free = true;
+      tree.forHits (lines[i].middle, direction, [&] (Index t, double) {
+        is_free = t == lines[i].triangle || !blocks (objectOf (lines[i].triangle), objectOf (t));
+        return !is_free;
+      });
+      return is_free;
+    };
+    constexpr std::size_t PER_TASK = 32;
+    std::vector<std::array<bool, 2>> are_free (lines.size ()); // towards the front, and the back
+    parallelTasks (run_, (lines.size () + PER_TASK - 1) / PER_TASK, [&] (std::size_t task) {
+      for (std::size_t i = task * PER_TASK; i < std::min (lines.size (), (task + 1) * PER_TASK);
+           ++i)
+        are_free[i] = {isFree (i, lines[i].direction), isFree (i, -lines[i].direction)};
+    });
+    std::vector<Free> free (judged_.size ());
+    for (std::size_t i = 0; i < lines.size (); ++i) {
+      Free& of_object = free[objectOf (lines[i].triangle)];
+      ++of_object.lines;
+      of_object.front += are_free[i][0] ? 1 : 0;
+      of_object.back += are_free[i][1] ? 1 : 0;
+    }
+    return free;
+  }
+
+  // Judges each object by itself: only itself blocks its lines.
+  void judgeOpen (const std::vector<Index>& open)
+  {
+    if (open.empty ())
+      return;
+    const std::vector<Free> free =
+        lookFrom (open, [] (Index own, Index other) { return own == other; });
+    for (const Index o : open) {
+      FacingObject& object = judged_[o];
+      const double lines = static_cast<double> (std::max<std::size_t> (free[o].lines, 1));
+      object.front = static_cast<double> (free[o].front) / lines;
+      object.back = static_cast<double> (free[o].back) / lines;
+      const double body = object.front - object.back;
+      const double sheet = limits_.body_ratio * object.mean_normal;
+      const bool is_body = std::abs (body) >= sheet;
+      is_body_[o] = is_body ? 1 : 0;
+      const bool is_inwards = body < 0.0,
+                 is_down = facesDown (objects_.sums[o].area_vector, limits_);
+      const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
+      if (hints_.wantsASide ()) {
+        decideOutwards (o, body, chance);
+        continue;
+      }
+      // What the sensor saw of half a body may as well be the inside of a bowl.
+      const double outside = certaintyOf ((std::abs (body) + chance) / (BOWL + chance));
+      const double up = certaintyOfUp (objects_.sums[o].area_vector);
+      const double either = certaintyOf ((std::max (std::abs (body), sheet) + chance) /
+                                         (std::min (std::abs (body), sheet) + chance));
+      if (!is_body)
+        decideSheet (o, is_inwards == is_down ? 1.0 : either);
+      else
+        decide (o, FacingRule::BODY, is_inwards,
+                is_inwards == is_down ? std::max (outside, up) : std::min (outside, either));
+    }
+  }
+
+  // Whether the rules for bodies decided, before nesting is known.
+  bool mayBeHollow (Index o) const
+  {
+    return is_body_[o] != 0 &&
+           (judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY);
+  }
+
+  // Whether one object may lie within another.
+  bool mayLieIn (Index o, Index other) const
+  {
+    const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
+    Eigen::AlignedBox3d box = outer.box;
+    const Eigen::Vector3d margin = limits_.nesting_margin * box.sizes ();
+    box.min () -= margin;
+    box.max () += margin;
+    return inner.area < outer.area && box.contains (inner.box);
+  }
+
+  // Judges bodies that may lie within other bodies. A nested one is the wall of a hollow, unless
+  // its front is visible from outside and its back is hardly: then it is a separate body, visible
+  // through windows of the other one. Through windows, the back of a wall is visible, and its front
+  // only at their edges.
+  void judgeNested ()
+  {
+    std::vector<Index> bodies, inner;
+    for (Index o = 0; o < judged_.size (); ++o)
+      if (is_body_[o] != 0)
+        bodies.push_back (o);
+    std::vector<std::vector<Index>> around (judged_.size ());
+    for (const Index o : bodies) {
+      if (!mayBeHollow (o))
+        continue;
+      for (const Index other : bodies)
+        if (other != o && mayLieIn (o, other))
+          around[o].push_back (other);
+      if (countAround (o, around[o]) % 2 == 1)
+        inner.push_back (o);
+    }
+    if (inner.empty ())
+      return;
+    const std::vector<Free> free = lookFrom (inner, [] (Index, Index) { return true; });
+    for (const Index o : inner) {
+      const std::size_t outside = isTurned (o) ? free[o].back : free[o].front;
+      const std::size_t inside = isTurned (o) ? free[o].front : free[o].back;
+      const bool is_own = objects_.sums[o].is_closed
+                              ? outside > 0
+                              : outside > limits_.own_body_ratio * (inside + limits_.chance_lines);
+      if (!is_own)
+        decide (o, FacingRule::HOLLOW, !isTurned (o), 1.0);
+    }
+  }
+
+  // Number of these objects that contain an object: rays from it cross their surfaces an odd number
+  // of times. By majority, since objects may have windows.
+  std::size_t countAround (Index o, const std::vector<Index>& around)
+  {
+    if (around.empty ())
+      return 0;
+    std::vector<SightLine> lines = linesThrough ({o});
+    lines.resize (std::min (lines.size (), limits_.nesting_lines));
+    std::size_t count = 0;
+    for (const Index other : around) {
+      std::size_t odd = 0;
+      for (const SightLine& line : lines) {
+        std::size_t crossed = 0;
+        rays ().forHits (line.middle, line.direction, [&] (Index t, double) {
+          crossed += objectOf (t) == other ? 1 : 0;
+          return false;
+        });
+        odd += crossed % 2;
+      }
+      count += 2 * odd > lines.size () ? 1 : 0;
+    }
+    return count;
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& positions_;
+  const MeshComponents& found_;
+  const FacingObjects& objects_;
+  const FacingHints& hints_;
+  const FacingLimits& limits_;
+  const RunContext& run_;
+  std::optional<TriangleRays> rays_; // made on demand
+  std::vector<FacingObject> judged_;
+  std::vector<std::uint8_t> is_turned_; // of each object
+  std::vector<std::uint8_t> is_body_;   // of each object: may contain others
+  std::vector<double> bulges_;          // of each object, made on demand
+  std::optional<double> common_bulge_;  // made on demand
+};
+
+} // namespace
+
 MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
@@ -22,277 +400,21 @@ faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   if (facing.lacks_viewpoint)
     usable.wanted = Facing::AUTO;
   const MeshComponents found = findComponents (mesh, run);
-  const std::vector<FacingSums> sums = sumComponents (mesh, positions, found, usable, limits, run);
-  const std::vector<std::uint8_t> is_turned =
-      judgeFacing (mesh, positions, found, sums,
-                   findTogether (mesh, positions, found, sums, usable, limits, run), usable, limits,
-                   run, facing);
+  const FacingObjects objects = findObjects (mesh, positions, found, usable, limits, run);
+  FacingJudge judge (mesh, positions, found, objects, usable, limits, run);
+  judge.judge ();
+  facing.objects = judge.objects ();
+  std::vector<std::uint8_t> is_turned;
+  for (Index c = 0; c < found.count; ++c)
+    is_turned.push_back (
+        judge.isTurned (objects.of_component[c]) != (objects.is_opposite[c] != 0) ? 1 : 0);
+  facing.turned = static_cast<std::size_t> (std::count (is_turned.begin (), is_turned.end (), 1));
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     if (is_turned[found.of_triangle[t]] != 0) {
       std::swap (mesh.triangles[t][1], mesh.triangles[t][2]);
       std::swap (mesh.neighbors[t][1], mesh.neighbors[t][2]);
     }
   return facing;
-}
-
-namespace {
-// Triangles per task. Sums of tasks are added in order: the result does not depend on threads.
-constexpr std::size_t SUMMED = 65536;
-
-// The sums of each component over consecutive triangles.
-class PartialSums
-{
-public:
-  PartialSums () = default;
-  PartialSums (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, double room_sine,
-               std::size_t first, std::size_t last)
-  {
-    std::unordered_map<Index, std::size_t> places; // of components in parts_
-    Index current = NONE;                          // component
-    std::size_t place = 0;
-    for (std::size_t t = first; t < last; ++t) {
-      const Triangle& corners = mesh.triangles[t];
-      if (found.of_triangle[t] != current) {
-        current = found.of_triangle[t];
-        place = places.emplace (current, parts_.size ()).first->second;
-        if (place == parts_.size ())
-          parts_.push_back ({current, {{}, positions[corners[0]]}});
-      }
-      ComponentSum& part = parts_[place].second;
-      add (mesh.neighbors[t], corners, positions, hints, room_sine, part.origin, part.sum);
-    }
-  }
-
-  void addTo (std::vector<ComponentSum>& sums) &&
-  {
-    const auto parts = std::move (parts_); // frees their memory
-    for (const auto& [component, part] : parts)
-      sums[component].add (part);
-  }
-
-private:
-  static void add (const std::array<Index, 3>& neighbors, const Triangle& corners,
-                   const std::vector<Eigen::Vector3d>& positions, const FacingHints& hints,
-                   double room_sine, const Eigen::Vector3d& origin, FacingSums& sum)
-  {
-    ++sum.triangles;
-    const Eigen::Vector3d area_vector = areaVectorOf (corners, positions);
-    const double area = area_vector.norm ();
-    sum.area_vector += area_vector;
-    sum.area += area;
-    const double from_above = std::abs (area_vector.z ());
-    sum.from_above += from_above;
-    if (from_above <= room_sine * area)
-      sum.upright += area;
-    else if (area_vector.head<2> ().norm () <= room_sine * area)
-      sum.level += area;
-    sum.volume += (positions[corners[0]] - origin).dot (area_vector);
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum.at = std::min (sum.at, corners[i]);
-      sum.box.extend (positions[corners[i]]);
-      sum.is_closed = sum.is_closed && neighbors[i] != NONE;
-    }
-    if (hints.normals != nullptr)
-      for (const Index p : corners) {
-        const double part = area_vector.dot ((*hints.normals)[p].cast<double> ()) / 3.0;
-        sum.along += part;
-        sum.told += std::abs (part);
-      }
-    if (hints.sensor) {
-      const Eigen::Vector3d way = *hints.sensor - middleOf (corners, positions);
-      const double cube = way.squaredNorm () * way.norm ();
-      const double solid_angle = cube > 0.0 ? way.dot (area_vector) / cube : 0.0;
-      sum.seen += solid_angle;
-      sum.in_sight += std::abs (solid_angle);
-    }
-  }
-
-  std::vector<std::pair<Index, ComponentSum>> parts_; // of each component
-};
-
-} // namespace
-
-std::vector<BoundarySegment>
-boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                  const MeshComponents& found)
-{
-  std::vector<BoundarySegment> segments;
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] == NONE)
-        segments.push_back ({found.of_triangle[t], positions[mesh.from ({t, side})],
-                             positions[mesh.to ({t, side})]});
-  return segments;
-}
-
-std::vector<FacingSums>
-sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run)
-{
-  const std::size_t triangles = mesh.triangles.size ();
-  const double room_sine = std::sin (limits.room_angle * DEGREE);
-  std::vector<PartialSums> parts ((triangles + SUMMED - 1) / SUMMED);
-  parallelTasks (run, parts.size (), [&] (std::size_t i) {
-    parts[i] = PartialSums (mesh, positions, found, hints, room_sine, i * SUMMED,
-                            std::min (triangles, (i + 1) * SUMMED));
-  });
-  std::vector<ComponentSum> components (found.count);
-  for (PartialSums& part : parts)
-    std::move (part).addTo (components);
-  std::vector<FacingSums> sums;
-  sums.reserve (components.size ());
-  for (const ComponentSum& component : components) {
-    FacingSums& sum = sums.emplace_back (component.sum);
-    if (std::abs (sum.along) < limits.normals_share * sum.told) {
-      sum.contradictory = sum.told;
-      sum.along = sum.told = 0.0;
-    }
-  }
-  return sums;
-}
-
-std::vector<Continuation>
-findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const MeshComponents& found, const std::vector<FacingSums>& sums,
-              const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
-{
-  if (hints.wanted == Facing::UP || hints.wanted == Facing::VIEWPOINT)
-    return {};
-  if (hints.faces_sensor && !hints.wantsASide ())
-    return {};
-  if (!hints.is_one_view && !hints.faces_sensor)
-    return findContinuations (mesh, found, positions, limits.continuations, run);
-  std::vector<Continuation> all; // each open component with all others
-  Index first = NONE;
-  for (Index c = 0; c < found.count; ++c)
-    if (!sums[c].is_closed && first == NONE)
-      first = c;
-    else if (!sums[c].is_closed)
-      all.push_back ({first, c, false, 0.0});
-  return all;
-}
-
-void
-joinContinuations (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums,
-                   SignedSets& sets)
-{
-  std::stable_sort (
-      continuations.begin (), continuations.end (),
-      [] (const Continuation& a, const Continuation& b) { return a.support > b.support; });
-  // Of each representative: 1 or -1 by the normals of its set, 0 without normals.
-  std::vector<int> told;
-  told.reserve (sums.size ());
-  for (const FacingSums& sum : sums)
-    told.push_back (sum.along > 0.0 ? 1 : sum.along < 0.0 ? -1 : 0);
-  for (const Continuation& one : continuations) {
-    const SignedSets::Place a = sets.find (one.a), b = sets.find (one.b);
-    const int sign = ((a.flipped != b.flipped) != one.is_opposite) ? -1 : 1;
-    if (a.root == b.root || sign * told[a.root] * told[b.root] < 0)
-      continue;
-    sets.join (one.a, one.b, one.is_opposite);
-    const Index root = sets.find (a.root).root, other = root == a.root ? b.root : a.root;
-    if (told[root] == 0)
-      told[root] = sign * told[other];
-  }
-}
-
-FacingObjects
-makeObjects (const std::vector<FacingSums>& components, SignedSets sets)
-{
-  FacingObjects objects;
-  std::vector<Index> of_root (components.size (), NONE);
-  for (Index c = 0; c < components.size (); ++c) {
-    const SignedSets::Place place = sets.find (c);
-    if (of_root[place.root] == NONE) {
-      of_root[place.root] = static_cast<Index> (objects.sums.size ());
-      objects.sums.emplace_back ();
-    }
-    objects.of_component.push_back (of_root[place.root]);
-    objects.is_opposite.push_back (place.flipped ? 1 : 0);
-    objects.sums[of_root[place.root]].add (components[c], objects.sign (c));
-  }
-  return objects;
-}
-
-std::vector<double>
-bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& component,
-          const std::vector<Eigen::Vector3d>& positions,
-          const std::vector<BoundarySegment>& boundary, const FacingObjects& objects,
-          double flatness)
-{
-  const std::size_t count = objects.sums.size ();
-  std::vector<Eigen::Vector3d> middle (count, Eigen::Vector3d::Zero ()); // of the boundary
-  std::vector<double> length (count, 0.0);
-  for (const auto& [of, from, to] : boundary) {
-    const Index o = objects.of_component[of];
-    middle[o] += 0.5 * (to - from).norm () * (from + to);
-    length[o] += (to - from).norm ();
-  }
-  for (std::size_t o = 0; o < count; ++o)
-    if (length[o] > 0.0)
-      middle[o] /= length[o];
-  std::vector<double> bulges (count, 0.0), volumes (count, 0.0);
-  for (std::size_t t = 0; t < triangles.size (); ++t) {
-    const Index o = objects.of_component[component[t]];
-    const double volume = (middleOf (triangles[t], positions) - middle[o])
-                              .dot (areaVectorOf (triangles[t], positions));
-    bulges[o] += objects.sign (component[t]) * volume;
-    volumes[o] += std::abs (volume);
-  }
-  for (std::size_t o = 0; o < count; ++o) {
-    const FacingSums& sums = objects.sums[o];
-    const bool is_flat =
-        sums.box.isEmpty () || volumes[o] <= flatness * sums.area * sums.box.diagonal ().norm ();
-    bulges[o] = is_flat ? 0.0 : bulges[o] / volumes[o];
-  }
-  return bulges;
-}
-
-bool
-facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  const double longest = normal.cwiseAbs ().maxCoeff ();
-  for (const int axis : {2, 1})
-    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
-      return normal[axis] < 0.0;
-  return normal.x () < 0.0;
-}
-
-bool
-isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
-{
-  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
-}
-
-double
-certaintyOf (double factor)
-{
-  const double cube = factor * factor * factor;
-  return cube / (1.0 + cube);
-}
-
-double
-certaintyOfUp (const Eigen::Vector3d& normal)
-{
-  const double squared_length = normal.squaredNorm ();
-  const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;
-  return 0.5 + 0.5 * square * square;
-}
-
-bool
-isRoom (const FacingSums& sums, const FacingLimits& limits)
-{
-  constexpr double FURNITURE = 0.3; // or walls within; generated rooms have 0.15, and fandisk, a
-                                    // part of a machine with level and upright faces, 0.57
-  // Six times the floor, which is a quarter of the doubled area, times the height.
-  const double prism = 1.5 * sums.from_above * sums.box.sizes ().z ();
-  return sums.upright + sums.level >= limits.room_share * sums.area &&
-         std::min (sums.upright, sums.level) >= limits.room_part * sums.area &&
-         std::abs (sums.area_vector.z ()) <= limits.room_openings * sums.from_above &&
-         sums.meanNormal () <= limits.room_openings &&
-         std::abs (std::abs (sums.volume) - prism) <= FURNITURE * prism;
 }
 
 } // namespace pcl::floater

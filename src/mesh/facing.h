@@ -3,27 +3,35 @@
 // Orientation of components: which side is the front.
 #pragma once
 
-#include "core/disjoint_sets.h"
-#include "core/geometry.h"
-#include "mesh/continuations.h"
 #include "mesh/triangle_mesh.h"
 
 #include <pcl/surface/floater/report.h>
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
 namespace pcl::floater {
+/// Thresholds for the continuation of a boundary edge.
+struct ContinuationLimits
+{
+  double reach = 8.0;  ///< largest gap, in mean boundary edges of the component
+  double cosine = 0.5; ///< of the angle between the direction across the gap and the direction in
+                       ///< which either surface ends; sheets above each other have 0
+  double agreement = 0.5; ///< of the edges that continue each other, by length: majority for one
+                          ///< orientation over the other, as a share of all
+  double support = 0.1;   ///< of Continuation::support, over the length of the shorter border. The
+                          ///< walls of generated hollow bodies, which do not continue each other,
+                          ///< reach 0.08; halves of a square have 0.3
+};
+
 /// Thresholds of the facing.
 struct FacingLimits
 {
   /// By how much more the front is visible from outside than the back, as a share of all
   /// directions, relative to the length of the mean normal. Above, the surface has an inside. A cap
   /// with a share f of the area of its sphere has f and 1 - f, so that a bowl becomes a valley at f
-  /// = 1/4, where its rim is 60 degrees steep. Theory: an open pit with slopes of 45 degrees
-  /// (terrain) has 0.31; a half sphere (half a body) has 1.
-  /// which is terrain, has 0.31; a half sphere, which is half a body, has 1.
+  /// = 1/4, where its rim is 60 degrees steep. Theory: an open pit with slopes of 45 degrees, which is
+  /// terrain, has 0.31; a half sphere, which is half a body, has 1.
   double body_ratio = 1.0 / 3.0;
 
   std::size_t lines = 512; ///< most lines of sight through an object. The shares then have a
@@ -148,131 +156,5 @@ struct MeshFacing
 MeshFacing
 faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
-
-/// Sums over the triangles of a component, or of the components of an object.
-struct FacingSums
-{
-  Eigen::Vector3d area_vector = Eigen::Vector3d::Zero (); ///< doubled, as the area
-  double area = 0.0;
-  double volume = 0.0;               ///< six times the volume enclosed by a closed one
-  double seen = 0.0, in_sight = 0.0; ///< from the sensor: signed and unsigned solid angle, doubled
-  double from_above = 0.0;           ///< unsigned area seen along z; doubled
-  double upright = 0.0, level = 0.0; ///< area of walls, and of floors and ceilings; doubled
-  double along = 0.0, told = 0.0;    ///< area times cosine to the input normals, signed and
-                                     ///< unsigned, of components with agreeing normals; doubled
-  double contradictory = 0.0;        ///< unsigned, of components with contradictory normals
-  std::size_t triangles = 0;
-  Index at = NONE;
-  bool is_closed = true;
-  Eigen::AlignedBox3d box;
-
-  void add (const FacingSums& other, double sign)
-  {
-    area_vector += sign * other.area_vector;
-    area += other.area;
-    volume += sign * other.volume;
-    seen += sign * other.seen;
-    in_sight += other.in_sight;
-    from_above += other.from_above;
-    upright += other.upright;
-    level += other.level;
-    along += sign * other.along;
-    told += other.told;
-    contradictory += other.contradictory;
-    triangles += other.triangles;
-    at = std::min (at, other.at);
-    is_closed = is_closed && other.is_closed;
-    box.extend (other.box);
-  }
-
-  double meanNormal () const { return area > 0.0 ? area_vector.norm () / area : 0.0; }
-};
-
-/// The sums of a component, or of some of its triangles. Volumes are relative to a near origin, for
-/// precision.
-struct ComponentSum
-{
-  FacingSums sum;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero (); ///< undefined without triangles
-
-  void add (const ComponentSum& other)
-  {
-    if (other.sum.triangles == 0)
-      return;
-    if (sum.triangles == 0)
-      origin = other.origin;
-    sum.add (other.sum, 1.0);
-    sum.volume += (other.origin - origin).dot (other.sum.area_vector);
-  }
-};
-
-/// Objects and their components.
-struct FacingObjects
-{
-  std::vector<Index> of_component;
-  std::vector<std::uint8_t> is_opposite; ///< of each component: its front is the back of the object
-  std::vector<FacingSums> sums;          ///< of each object
-
-  double sign (Index component) const { return is_opposite[component] != 0 ? -1.0 : 1.0; }
-};
-
-inline Eigen::Vector3d
-middleOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
-{
-  return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
-}
-
-inline Eigen::Vector3d
-areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
-{
-  return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
-}
-
-/// A boundary edge, with the surface on its left.
-struct BoundarySegment
-{
-  Index component;
-  Eigen::Vector3d from, to;
-};
-
-std::vector<BoundarySegment>
-boundarySegments (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                  const MeshComponents& found);
-
-/// Sums over the triangles of each component, by the sensor and the normals of the hints;
-/// contradictory normals are moved to `contradictory`. O(n), on all threads; the result does not
-/// depend on their number.
-std::vector<FacingSums>
-sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run);
-
-/// Components to be oriented together, unless something contradicts.
-std::vector<Continuation>
-findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const MeshComponents& found, const std::vector<FacingSums>& sums,
-              const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
-
-/// Joins components that continue each other, the strongest continuations first. Skips those that
-/// contradict stronger ones or the input normals.
-/// \param sums of the components
-void
-joinContinuations (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums,
-                   SignedSets& sets);
-
-/// The objects in the order of their first components.
-FacingObjects
-makeObjects (const std::vector<FacingSums>& components, SignedSets sets);
-
-/// How far each object bulges out of its boundary to its front: the volume between it and the
-/// middle of its boundary, signed over unsigned, from -1 to 1: 1 for a dome that faces outwards,
-/// about 0 for a wave, 0 for a flat one. O(n).
-/// \param component of each triangle
-/// \param flatness see FacingLimits
-std::vector<double>
-bulgesOf (const std::vector<Triangle>& triangles, const std::vector<Index>& component,
-          const std::vector<Eigen::Vector3d>& positions,
-          const std::vector<BoundarySegment>& boundary, const FacingObjects& objects,
-          double flatness);
 
 } // namespace pcl::floater

@@ -26,8 +26,7 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
     std::vector<Eigen::Vector3f> area (points, Eigen::Vector3f::Zero ());
     ranges.forEach (r, [&] (Index triangle) {
       const Triangle& t = mesh.triangles[triangle];
-      const Eigen::Vector3f area_vector =
-          areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).cast<float> ();
+      const Eigen::Vector3f area_vector = areaVectorOf (t, positions).cast<float> ();
       for (const Index p : t)
         if (p - first < points) // also false if p is below
           area[p - first] += area_vector;

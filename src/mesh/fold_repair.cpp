@@ -15,13 +15,6 @@ namespace pcl::floater {
 namespace {
 constexpr std::uint8_t NO_PLACE = 255; // rank after all kicks have failed
 
-Eigen::Vector3d
-areaVectorOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, Index t)
-{
-  const auto& [a, b, c] = mesh.triangles[t];
-  return areaVector (positions[a], positions[b], positions[c]);
-}
-
 // The corners of bad triangles, ascending.
 std::vector<Index>
 findBadVertices (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -31,7 +24,7 @@ findBadVertices (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& p
   parallelRanges (run, is_bad.size (), [&] (std::size_t first, std::size_t last) {
     for (auto t = static_cast<Index> (first); t < last; ++t) {
       const bool is = isBad (mesh, cost, t, [&] (Index u) -> Eigen::Vector3d {
-        return areaVectorOf (mesh, positions, u);
+        return areaVectorOf (mesh.triangles[u], positions);
       });
       is_bad[t] = is ? 1 : 0;
     }
@@ -260,10 +253,10 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
   std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
   parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
     for (auto t = static_cast<Index> (first); t < last; ++t) {
-      const Eigen::Vector3d own = areaVectorOf (mesh, positions, t);
+      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
       for (std::uint8_t side = 0; side < 3; ++side) {
         const Index u = mesh.neighbors[t][side];
-        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh, positions, u)))
+        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh.triangles[u], positions)))
           sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
       }
     }

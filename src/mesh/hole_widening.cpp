@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -61,17 +62,18 @@ flagsOf (const std::vector<std::pair<Index, Index>>& over, const TriangleMesh& m
   return is_removed;
 }
 
-} // namespace
-
+// Triangles at loops that are too large for the sampling around. A triangle is one if it has a
+// boundary edge or a neighbour that is one; its other corner must be inside, so that the mesh
+// without them is a manifold with the same points, components, loops and genus. O(n).
+// \return triangles and their loops, ring by ring
 std::vector<std::pair<Index, Index>>
 trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
                     const std::vector<LoopEvidence>& evidence,
                     const std::vector<std::uint8_t>& is_looked,
-                    const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits,
-                    const RunContext& run)
+                    const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits)
 {
   const std::vector<Index> loop_of = loopsOfPoints (loops, positions.size ());
-  BoundaryPeel peel (mesh, positions.size (), run);
+  BoundaryPeel peel (mesh, positions.size ());
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
   for (const MeshEdge e : peel.edges ())
     if (const Index loop = loop_of[mesh.from (e)]; loop != NONE && is_looked[loop] != 0)
@@ -102,6 +104,8 @@ trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& l
   }
   return over;
 }
+
+} // namespace
 
 std::vector<LoopJudgement>
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
@@ -137,7 +141,7 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
     }
   };
   std::vector<std::pair<Index, Index>> over =
-      trianglesOverHoles (mesh, loops, evidence, is_looked, positions, limits, run);
+      trianglesOverHoles (mesh, loops, evidence, is_looked, positions, limits);
   if (!over.empty ())
     widen (std::move (over));
   return judgements;

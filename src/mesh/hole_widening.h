@@ -5,7 +5,6 @@
 
 #include "mesh/loops.h"
 
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -28,20 +27,7 @@ struct HoleWideningLimits
                           ///< four windows that are filled
 };
 
-/// Triangles at loops that are too large for the sampling around. A triangle is one if it has a
-/// boundary edge or a neighbour that is one; its other corner must be inside, so that the mesh
-/// without them is a manifold with the same points, components, loops and genus. O(n).
-/// \param evidence  of each loop
-/// \param is_looked per loop: 1 to look at it
-/// \return triangles and their loops, ring by ring
-std::vector<std::pair<Index, Index>>
-trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
-                    const std::vector<LoopEvidence>& evidence,
-                    const std::vector<std::uint8_t>& is_looked,
-                    const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits,
-                    const RunContext& run);
-
-/// Judges loops, and removes triangles over a hole (trianglesOverHoles) where a loop that looks like
+/// Judges loops, and removes triangles over a hole where a loop that looks like
 /// a gap becomes a likely boundary without them. O(n) plus twice judgeLoops ().
 /// \param loops   of the mesh, ascending by their smallest points before
 /// \param spacing local spacing of each point

@@ -18,9 +18,8 @@ namespace {
 class FoldOpener
 {
 public:
-  FoldOpener (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size (), run)
+  FoldOpener (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions)
+      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size ())
   {
   }
 
@@ -72,9 +71,7 @@ private:
   {
     double area = 0.0;
     for (const MeshEdge e : triangles)
-      area += areaVector (positions_[mesh_.corner (e)], positions_[mesh_.from (e)],
-                          positions_[mesh_.to (e)])
-                  .norm ();
+      area += areaVectorOf (mesh_.triangles[e.triangle], positions_).norm ();
     if (area < least_area_) {
       least_area_ = area;
       best_ = triangles;
@@ -102,7 +99,7 @@ openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
   const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
   if (folds.empty ())
     return 0;
-  FoldOpener opener (mesh, positions, run);
+  FoldOpener opener (mesh, positions);
   std::size_t count = 0;
   for (const MeshEdge fold : folds)
     count += opener.open (fold);
@@ -138,8 +135,8 @@ usualCosine (std::vector<double> corners, double share)
 class NotchOpener
 {
 public:
-  NotchOpener (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size (), run)
+  NotchOpener (const TriangleMesh& mesh, const Positions& positions)
+      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size ())
   {
   }
 
@@ -208,7 +205,7 @@ std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
              const RunContext& run)
 {
-  NotchOpener opener (mesh, positions, run);
+  NotchOpener opener (mesh, positions);
   const std::size_t count = opener.run (sampleCorners (mesh, positions, run), limits);
   if (count > 0)
     removeTriangles (mesh, std::move (opener).takenTriangles (), run);

@@ -18,19 +18,12 @@ class BoundaryPeel
 public:
   /// O(n).
   /// \param points number of points of the mesh
-  BoundaryPeel (const TriangleMesh& mesh, std::size_t points, const RunContext& run)
-      : mesh_ (mesh), is_taken_ (mesh.triangles.size (), 0), is_at_boundary_ (points, 0)
+  BoundaryPeel (const TriangleMesh& mesh, std::size_t points)
+      : mesh_ (mesh), edges_ (boundaryEdges (mesh)), is_taken_ (mesh.triangles.size (), 0),
+        is_at_boundary_ (points, 0)
   {
-    ProgressLoop progress (run);
-    for (Index t = 0; t < mesh.triangles.size (); ++t) {
-      progress.next ();
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] == NONE) {
-          edges_.push_back ({t, side});
-          is_at_boundary_[mesh.from (edges_.back ())] = 1;
-          is_at_boundary_[mesh.to (edges_.back ())] = 1;
-        }
-    }
+    for (const MeshEdge e : edges_)
+      is_at_boundary_[mesh.from (e)] = is_at_boundary_[mesh.to (e)] = 1;
   }
 
   /// The boundary edges of the mesh, in the order of its triangles.

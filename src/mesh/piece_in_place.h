@@ -6,13 +6,11 @@
 #include "core/disjoint_sets.h"
 #include "core/geometry.h"
 #include "mesh/fold_repair.h"
-#include "mesh/open_boundary.h"
 #include "mesh/self_intersections.h"
 #include "mesh/two_sides.h"
+#include "mesh/vertex_stars.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -46,16 +44,26 @@ public:
   bool isManifold () const { return is_manifold_; }
 
   /// Points inside that have no single fan, or one that is open but at boundaries that stay.
-  std::vector<Index> misfits () const
+  std::vector<Index> misfits (const RunContext& run) const
   {
-    std::vector<std::vector<std::pair<Index, Index>>> stars (place_.positions.size ());
-    for (const Triangle& t : mesh_.triangles)
-      for (std::size_t k = 0; k < 3; ++k)
-        stars[t[k]].emplace_back (t[(k + 1) % 3], t[(k + 2) % 3]);
+    const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
+    const TriangleRanges ranges (mesh_.triangles, place_.positions.size (), run);
+    StarOrder order;
     std::vector<Index> points;
-    for (Index p = 0; p < stars.size (); ++p)
-      if (isInside (p) && !isFan (p, stars[p]))
-        points.push_back (p);
+    for (std::size_t r = 0; r < ranges.count (); ++r) {
+      const VertexStars stars (mesh_.triangles, ranges, r);
+      for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < ranges.lastPoint (r); ++p) {
+        const VertexStar star = stars.of (p);
+        if (!isInside (p))
+          continue;
+        bool fits = star.size () > 0 && order.set (star) && order.isOneFan ();
+        for (std::size_t i = 0; fits && i < star.size (); ++i)
+          fits = (order.before (i) != NONE || (stays (p) && stays (star[i].next))) &&
+                 (order.after (i) != NONE || (stays (p) && stays (star[i].previous)));
+        if (!fits)
+          points.push_back (p);
+      }
+    }
     return points;
   }
 
@@ -70,41 +78,16 @@ public:
       pieces.join (t[0], t[1]);
       pieces.join (t[1], t[2]);
     }
-    forEachOpenEdge ([&] (Index from, Index to) {
-      loops.join (from, to);
-      is_open[from] = is_open[to] = 1;
+    for (const MeshEdge e : boundaryEdges (mesh_)) {
+      loops.join (mesh_.from (e), mesh_.to (e));
+      is_open[mesh_.from (e)] = is_open[mesh_.to (e)] = 1;
       ++open_edges;
-    });
+    }
     for (Index p = 0; p < points; ++p)
       if (mesh_.triangle_of[p] != NONE)
         twice +=
             (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
     return twice - triangles + (3 * triangles + open_edges) / 2;
-  }
-
-  /// Which of the other triangles cover an opening at the boundary: no point is in the circumcircle of
-  /// a triangle, and among evenly spaced points its radius is at most the mean edge (see
-  /// HoleWideningLimits).
-  /// \param edge mean edge around each point
-  std::vector<std::uint8_t> overOpenings (const std::vector<double>& edge, std::size_t others,
-                                          const RunContext& run) const
-  {
-    const std::vector<Eigen::Vector3d>& x = place_.positions;
-    BoundaryPeel peel (mesh_, x.size (), run);
-    std::vector<MeshEdge> edges = peel.edges ();
-    while (!edges.empty ()) {
-      const MeshEdge e = edges.back ();
-      edges.pop_back ();
-      const auto& [a, b, c] = mesh_.triangles[e.triangle];
-      if (e.triangle >= others || !peel.mayTake (e) ||
-          circumradius (x[a], x[b], x[c]) <= std::max ({edge[a], edge[b], edge[c]}))
-        continue;
-      peel.take (e);
-      for (const std::uint8_t side : {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)})
-        if (const MeshEdge beyond = mesh_.mate ({e.triangle, side}); beyond.triangle != NONE)
-          edges.push_back (beyond);
-    }
-    return std::move (peel).takenTriangles ();
   }
 
   /// Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
@@ -113,11 +96,11 @@ public:
   {
     std::size_t count = findFolds (mesh_, place_.positions, run).size () +
                         findSelfIntersections (mesh_.triangles, place_.positions, run).size ();
-    forEachOpenEdge ([&] (Index from, Index to) {
-      if ((isInside (from) || isInside (to)) &&
+    for (const MeshEdge e : boundaryEdges (mesh_))
+      if (const Index from = mesh_.from (e), to = mesh_.to (e);
+          (isInside (from) || isInside (to)) &&
           (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
         ++count;
-    });
     for (std::size_t p = 0; p < place_.positions.size (); ++p)
       count += place_.is_free[p] != 0 && mesh_.triangle_of[p] == NONE ? 1 : 0;
     return count;
@@ -125,37 +108,6 @@ public:
 
 private:
   bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
-
-  bool isFan (Index p, const std::vector<std::pair<Index, Index>>& star) const
-  {
-    const std::map<Index, Index> next (star.begin (), star.end ());
-    if (star.empty () || next.size () != star.size ())
-      return false;
-    std::set<Index> ends;
-    for (const auto& [from, to] : star)
-      ends.insert (to);
-    const auto open = std::find_if (star.begin (), star.end (), [&] (const auto& edge) {
-      return ends.count (edge.first) == 0;
-    });
-    const Index first = open == star.end () ? star.front ().first : open->first;
-    std::size_t count = 0;
-    Index last = first;
-    do {
-      last = next.at (last);
-      ++count;
-    } while (last != first && count < star.size () && next.count (last) != 0);
-    const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
-    return count == star.size () && (last == first || (stays (p) && stays (first) && stays (last)));
-  }
-
-  template <typename Visit>
-  void forEachOpenEdge (Visit&& visit) const
-  {
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh_.neighbors[t][side] == NONE)
-          visit (mesh_.from ({t, side}), mesh_.to ({t, side}));
-  }
 
   const Place& place_;
   TriangleMesh mesh_;

@@ -58,7 +58,7 @@ public:
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
         after (place, made.triangles, made.is_turned, run_);
-    misfits = after.misfits ();
+    misfits = after.misfits (run_);
     for (Index& p : misfits)
       p = points[p];
     if (!misfits.empty () || !after.isManifold () ||
@@ -67,13 +67,8 @@ public:
             limits_.faults_left * static_cast<double> (before.faults (run_)))
       return std::nullopt;
     NewZone result;
-    std::vector<double> edges;
-    for (const Index p : points)
-      edges.push_back (meanEdge (p));
-    const std::vector<std::uint8_t> over = after.overOpenings (edges, made.triangles.size (), run_);
-    for (std::size_t i = 0; i < made.triangles.size (); ++i)
-      if (const Triangle& t = made.triangles[i]; over[i] == 0)
-        result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
+    for (const Triangle& t : made.triangles)
+      result.triangles.push_back ({points[t[0]], points[t[1]], points[t[2]]});
     std::vector<std::uint8_t> is_known (place.patches, 0);
     for (std::size_t i = 0; i < frame.size (); ++i)
       if (const Index patch = place.patch_of[i]; is_known[patch]++ == 0)

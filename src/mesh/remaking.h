@@ -28,8 +28,7 @@ struct Remaking
 /// out wrong once more, narrower each time, but wider where the new triangles did not fit to those
 /// around. A zone stays as it was if its new triangles are no manifold with those around, have a
 /// handle more, a lid on an opening, or not clearly fewer faults (PieceInPlace::faults); if the
-/// sides of pieces of the mesh contradict each other. Small triangles over an opening at the
-/// boundary go again. Components may come out with either side as the front. O(n), plus some 60
+/// sides of pieces of the mesh contradict each other. Components may come out with either side as the front. O(n), plus some 60
 /// microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first

@@ -3,9 +3,12 @@
 #include "mesh/triangle_mesh.h"
 
 #include "core/disjoint_sets.h"
+#include "core/csr_lists.h"
 #include "core/parallel.h"
+#include "mesh/vertex_stars.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace pcl::floater {
@@ -199,17 +202,58 @@ TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
   setTriangleOf (p, NONE);
 }
 
+// Both triangles of an edge are in the star of each of its ends, so the stars suffice.
+bool
+TriangleMesh::connect (std::size_t points, const RunContext& run,
+                       const std::vector<std::uint8_t>* may_be_split)
+{
+  // Tables of edges have 3 entries per triangle.
+  requireCountable (3 * triangles.size (), NONE - 1, "a table of edges", "use fewer points");
+  run.poll ();
+  triangle_of.resize (points);
+  neighbors.resize (triangles.size ());
+  const TriangleRanges ranges (triangles, points, run);
+  std::atomic<bool> is_manifold{ranges.leftOut () == 0};
+  parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+    if (!is_manifold)
+      return;
+    const VertexStars stars (triangles, ranges, r);
+    StarOrder order;
+    for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r) && is_manifold; ++p) {
+      const VertexStar star = stars.of (p);
+      triangle_of[p] = star.size () == 0 ? NONE : star[star.size () - 1].triangle;
+      const bool is_ordered = order.set (star);
+      for (std::size_t i = 0; is_ordered && i < star.size (); ++i) {
+        const Index u = star[i].triangle, before = order.before (i);
+        neighbors[u][previous (sideOf (u, static_cast<Index> (p)))] =
+            before == NONE ? NONE : star[before].triangle;
+      }
+      const bool may_be = may_be_split != nullptr && (*may_be_split)[p] != 0;
+      if (!is_ordered || !(may_be || order.isOneFan ()))
+        is_manifold = false;
+    }
+  });
+  return is_manifold;
+}
+
+std::vector<MeshEdge>
+boundaryEdges (const TriangleMesh& mesh)
+{
+  std::vector<MeshEdge> edges;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (mesh.neighbors[t][side] == NONE)
+        edges.push_back ({t, side});
+  return edges;
+}
+
 std::vector<std::vector<Index>>
 boundaryLoops (const TriangleMesh& mesh, const RunContext& run)
 {
   std::vector<Index> successor (mesh.triangle_of.size (), NONE);
-  ProgressLoop progress (run);
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    progress.next ();
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (mesh.neighbors[t][side] == NONE)
-        successor[mesh.from ({t, side})] = mesh.to ({t, side});
-  }
+  run.poll ();
+  for (const MeshEdge e : boundaryEdges (mesh))
+    successor[mesh.from (e)] = mesh.to (e);
   std::vector<std::vector<Index>> loops;
   for (Index start = 0; start < successor.size (); ++start) {
     if (successor[start] == NONE)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/csr_lists.h"
+#include "core/geometry.h"
 #include "core/run_context.h"
 
 #include <vector>
@@ -15,6 +16,12 @@ struct MeshEdge
   Index triangle;
   std::uint8_t side;
 };
+
+inline Eigen::Vector3d
+areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+{
+  return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
+}
 
 /// Records changes of a mesh, so that they can be undone.
 class MeshJournal
@@ -162,6 +169,10 @@ private:
   Index p_, start_, at_;
   bool is_clockwise_ = false;
 };
+
+/// The boundary edges, in the order of their triangles. O(n).
+std::vector<MeshEdge>
+boundaryEdges (const TriangleMesh& mesh);
 
 /// The points of each boundary loop in order, the surface on the left. A loop starts at its
 /// smallest point; loops are sorted by these. O(n).

@@ -12,6 +12,9 @@ namespace {
 // threads of a large machine; long enough to be worth a task.
 constexpr std::size_t MOST_CHUNKS = 64, SHORTEST_CHUNK = 65536;
 
+// Number of wedges up to which comparing all pairs is faster than a hash table. Measured.
+constexpr std::size_t MANY_IN_STAR = 32;
+
 // Calls body (r) for each range that has a corner of the triangle.
 template <typename Body>
 void
@@ -98,6 +101,71 @@ VertexStars::VertexStars (const std::vector<Triangle>& triangles, const Triangle
       wedges_[begins_[c - first_ + 1]++] = {t, a, b};
   });
   begins_.pop_back ();
+}
+
+// Whether no two edges lead to the same point.
+bool
+StarOrder::indexLeaving (const VertexStar& star)
+{
+  if (star.size () > MANY_IN_STAR) {
+    leaving_ = {}; // not clear (): it visits all buckets of an earlier, larger table
+    for (Index i = 0; i < star.size (); ++i)
+      if (!leaving_.emplace (star[i].next, i).second)
+        return false;
+    return true;
+  }
+  for (std::size_t i = 1; i < star.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (star[i].next == star[j].next)
+        return false;
+  return true;
+}
+
+// The wedge whose first edge leads to q, NONE if there is none.
+Index
+StarOrder::wedgeTo (Index q, const VertexStar& star) const
+{
+  if (star.size () > MANY_IN_STAR) {
+    const auto found = leaving_.find (q);
+    return found == leaving_.end () ? NONE : found->second;
+  }
+  for (Index i = 0; i < star.size (); ++i)
+    if (star[i].next == q)
+      return i;
+  return NONE;
+}
+
+bool
+StarOrder::set (const VertexStar& star)
+{
+  if (!indexLeaving (star))
+    return false;
+  // A wedge is followed anti-clockwise by the one that begins at its last edge.
+  after_.assign (star.size (), NONE);
+  before_.assign (star.size (), NONE);
+  for (Index i = 0; i < star.size (); ++i) {
+    const Index j = wedgeTo (star[i].previous, star);
+    after_[i] = j;
+    if (j != NONE)
+      before_[j] = i;
+  }
+  return true;
+}
+
+bool
+StarOrder::isOneFan () const
+{
+  if (after_.empty ())
+    return true;
+  Index start = 0;
+  for (Index i = 0; i < before_.size (); ++i)
+    if (before_[i] == NONE)
+      start = i; // start of an open fan
+  // If an edge leads to p twice, the walk may cycle without reaching its start.
+  std::size_t count = 1;
+  for (Index i = after_[start]; i != NONE && i != start && count <= after_.size (); i = after_[i])
+    ++count;
+  return count == after_.size ();
 }
 
 } // namespace pcl::floater

@@ -8,6 +8,7 @@
 #include "core/types.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <vector>
 
 namespace pcl::floater {
@@ -105,6 +106,28 @@ private:
   std::size_t first_; // point of the range
   std::vector<std::size_t> begins_;
   std::vector<Wedge> wedges_;
+};
+
+/// How the triangles of a star follow each other around its point.
+class StarOrder
+{
+public:
+  /// \return false if an edge leaves the point twice
+  bool set (const VertexStar& star);
+
+  /// The wedges before and after wedge i, NONE at a boundary.
+  Index before (std::size_t i) const { return before_[i]; }
+  Index after (std::size_t i) const { return after_[i]; }
+
+  /// Whether all triangles, if there are any, are one fan.
+  bool isOneFan () const;
+
+private:
+  bool indexLeaving (const VertexStar& star);
+  Index wedgeTo (Index q, const VertexStar& star) const;
+
+  std::vector<Index> after_, before_;        // of each wedge: neighbours in the fan, or NONE
+  std::unordered_map<Index, Index> leaving_; // if there are many wedges: each by its first edge
 };
 
 } // namespace pcl::floater

@@ -3,11 +3,11 @@
 // Rays through a mesh, and what they see.
 #pragma once
 
-#include "core/parallel.h"
-#include "core/run_context.h"
-#include "core/types.h"
+#include "core/geometry.h"
 #include "mesh/box_tree.h"
+#include "mesh/vertex_stars.h"
 
+#include <cmath>
 #include <vector>
 
 namespace pcl::floater {
@@ -18,7 +18,13 @@ class TriangleRays
 public:
   /// \param triangles must outlive this, as must the positions
   TriangleRays (const std::vector<Triangle>& triangles,
-                const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
+                const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+      : triangles_ (triangles), positions_ (positions),
+        order_ (orderByPoints (triangles, positions.size ())),
+        tree_ ((order_.size () + GROUP - 1) / GROUP,
+               [this] (std::size_t group) { return boxOf (group); }, run)
+  {
+  }
 
   /// Calls visit (t, at) for each triangle t that a ray meets beyond its origin, at origin + at *
   /// direction, unsorted, until it returns true. A ray through an edge or a corner meets at least
@@ -42,10 +48,33 @@ private:
   // Triangles in one box of the tree: larger groups mean fewer boxes and more tests. Measured.
   static constexpr std::size_t GROUP = 4;
 
-  Eigen::AlignedBox3d boxOf (std::size_t group) const;
+  Eigen::AlignedBox3d boxOf (std::size_t group) const
+  {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = group * GROUP; i < std::min (order_.size (), (group + 1) * GROUP); ++i)
+      for (const Index p : triangles_[order_[i]])
+        box.extend (positions_[p]);
+    return box;
+  }
 
-  // Parameter of the intersection along the ray; 0 if there is none.
-  double hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+  // Parameter of the intersection along the ray; 0 if there is none. The ray hits if the volumes of
+  // the tetrahedra of ray and edges have one sign. Both triangles of an edge compute exactly opposite
+  // volumes, so no ray slips between them.
+  double hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const
+  {
+    const Eigen::Vector3d a = positions_[triangles_[t][0]] - origin;
+    const Eigen::Vector3d b = positions_[triangles_[t][1]] - origin;
+    const Eigen::Vector3d c = positions_[triangles_[t][2]] - origin;
+    const double ab = direction.dot (a.cross (b));
+    const double bc = direction.dot (b.cross (c));
+    const double ca = direction.dot (c.cross (a));
+    const bool is_front = ab >= 0.0 && bc >= 0.0 && ca >= 0.0;
+    if (!is_front && !(ab <= 0.0 && bc <= 0.0 && ca <= 0.0))
+      return 0.0;
+    const Eigen::Vector3d normal = areaVector (a, b, c);
+    const double slope = direction.dot (normal);
+    return slope != 0.0 ? std::max (0.0, a.dot (normal) / slope) : 0.0;
+  }
 
   const std::vector<Triangle>& triangles_;
   const std::vector<Eigen::Vector3d>& positions_;
@@ -61,6 +90,21 @@ struct SightLine
   Eigen::Vector3d direction; ///< towards its front
 };
 
+/// A unit vector around the normal, distributed by the cosine law: a point of the unit disc, lifted
+/// to the half sphere (Malley).
+inline Eigen::Vector3d
+directionAround (const Eigen::Vector3d& normal, std::size_t i)
+{
+  // Powers of the inverse of the plastic number, the root of x^3 = x + 1.
+  constexpr double FIRST = 0.7548776662466927, SECOND = 0.5698402909980532;
+  const auto fraction = [] (double x) { return x - std::floor (x); };
+  const double sqr_radius = fraction (FIRST * static_cast<double> (i + 1));
+  const double angle = 2.0 * PI * fraction (SECOND * static_cast<double> (i + 1));
+  const TangentFrame frame (normal);
+  const double radius = std::sqrt (sqr_radius);
+  return radius * std::cos (angle) * frame.x + radius * std::sin (angle) * frame.y +
+         std::sqrt (1.0 - sqr_radius) * normal;
+}
 /// Chooses lines of sight, evenly over an area that is added triangle by triangle. Directions
 /// follow Lambert's cosine law, so each counts by the apparent size of the surface. Deterministic:
 /// a low-discrepancy sequence (Roberts 2018).
@@ -76,43 +120,16 @@ public:
   /// Appends the lines for this triangle: none, one, or several if it is large.
   /// \param normal of unit length
   void add (Index triangle, double area, const Eigen::Vector3d& middle,
-            const Eigen::Vector3d& normal, std::vector<SightLine>& lines);
+            const Eigen::Vector3d& normal, std::vector<SightLine>& lines)
+  {
+    sum_ += area;
+    for (; next_ < sum_; next_ += step_)
+      lines.push_back ({triangle, middle, directionAround (normal, count_++)});
+  }
 
 private:
   double step_, next_, sum_ = 0.0;
   std::size_t count_ = 0;
 };
-
-/// Whether a line is free towards each side.
-struct Sight
-{
-  bool front = false, back = false;
-};
-
-/// \param blocks (line, triangle): whether that triangle counts; not called for the line's own one
-template <typename Blocks>
-std::vector<Sight>
-look (const TriangleRays& rays, const std::vector<SightLine>& lines, Blocks&& blocks,
-      const RunContext& run)
-{
-  constexpr std::size_t LINES_PER_TASK = 32;
-  std::vector<Sight> sights (lines.size ());
-  parallelTasks (run, (lines.size () + LINES_PER_TASK - 1) / LINES_PER_TASK,
-                 [&] (std::size_t task) {
-                   const std::size_t last = std::min (lines.size (), (task + 1) * LINES_PER_TASK);
-                   for (std::size_t i = task * LINES_PER_TASK; i < last; ++i) {
-                     const auto isFree = [&] (const Eigen::Vector3d& direction) {
-                       bool is_free = true;
-                       rays.forHits (lines[i].middle, direction, [&] (Index t, double) {
-                         is_free = t == lines[i].triangle || !blocks (i, t);
-                         return !is_free;
-                       });
-                       return is_free;
-                     };
-                     sights[i] = {isFree (lines[i].direction), isFree (-lines[i].direction)};
-                   }
-                 });
-  return sights;
-}
 
 } // namespace pcl::floater

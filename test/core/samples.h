@@ -154,8 +154,11 @@ makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int th
 {
   Neighborhoods made;
   made.points = makePoints (positions, indices (positions.size ()), threads);
-  made.geometry = makeLocalGeometry (made.points, findNeighbors (made.points, {}, threads),
-                                     {filter_sheets}, threads);
+  const StarSettings settings{filter_sheets};
+  made.geometry = makeLocalGeometry (
+      made.points,
+      fitLocalPlanes (made.points, findNeighbors (made.points, {}, threads), {}, settings, threads),
+      settings, threads);
   return made;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The common orientation of normals, and the boundary loop of a disc as a loop of
 // the triangles that stars agree on.
-#include "consensus/consensus_mesh.h"
 #include "consensus/consensus_method.h"
 #include "consensus/orientation.h"
 #include "samples.h"
