@@ -19,6 +19,30 @@
 
 namespace pcl::floater {
 std::optional<Viewpoint>
+knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
+                const Request& request)
+{
+  const ViewOptions& options = request.options.view;
+  const bool is_given = options.use == ViewUse::GIVEN;
+  const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
+  const Viewpoint viewpoint{
+      (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
+  const EvidenceLimits& evidence = request.limits.view.evidence;
+  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
+    return viewpoint;
+  if (isSensorKnown (sensor_origin) &&
+      mayBeSeenFrom (points.positions, viewpoint, evidence, request.run))
+    return Viewpoint{viewpoint.place, false, true};
+  return {};
+}
+
+namespace {
+// If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
+// that one. The given one is then likely to be wrong. First the sensor origin in the file is
+// tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
+// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
+// otherwise the time of a search.
+std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
 {
   const RunContext& run = request.run;
@@ -45,25 +69,6 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   return found;
 }
 
-std::optional<Viewpoint>
-knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
-                const Request& request)
-{
-  const ViewOptions& options = request.options.view;
-  const bool is_given = options.use == ViewUse::GIVEN;
-  const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
-  const Viewpoint viewpoint{
-      (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
-  const EvidenceLimits& evidence = request.limits.view.evidence;
-  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
-    return viewpoint;
-  if (isSensorKnown (sensor_origin) &&
-      mayBeSeenFrom (points.positions, viewpoint, evidence, request.run))
-    return Viewpoint{viewpoint.place, false, true};
-  return {};
-}
-
-namespace {
 // Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on
 // what bears the sensor, which are no part of the scene.
 std::size_t

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -98,23 +98,13 @@ private:
   // The edges by the depth of their nearer ends; stable.
   std::vector<Index> orderByDepth () const
   {
-    // Non-negative numbers are ordered like their bits.
-    constexpr unsigned HALF = 32;
-    std::vector<std::uint64_t> keys (edges_.size ());
-    const bool are_positive = !rays_.are_parallel;
-    for (std::size_t e = 0; e < keys.size (); ++e) {
-      std::uint32_t bits = 0;
-      const float depth = edges_[e].depth;
-      std::memcpy (&bits, &depth, sizeof bits);
-      constexpr std::uint32_t SIGN = 1U << 31U;
-      if (!are_positive) // depths of parallel rays may be negative
-        bits = (bits & SIGN) != 0 ? ~bits : bits | SIGN;
-      keys[e] = std::uint64_t{bits} << HALF | e;
-    }
+    std::vector<std::pair<float, Index>> keys (edges_.size ());
+    for (Index e = 0; e < keys.size (); ++e)
+      keys[e] = {edges_[e].depth, e};
     std::sort (keys.begin (), keys.end ());
     std::vector<Index> order (keys.size ());
     std::transform (keys.begin (), keys.end (), order.begin (),
-                    [] (std::uint64_t key) { return static_cast<Index> (key); });
+                    [] (const auto& key) { return key.second; });
     return order;
   }
 
@@ -144,10 +134,9 @@ private:
         view_.triangles[fan.back ()][TriangleMesh::previous (view_.sideOf (fan.back (), p))];
     if (last != around.front ())
       around.push_back (last);
-    const RayFrame frame (rays_, p);
     places.clear ();
     for (const Index q : around)
-      places.push_back (frame (q));
+      places.push_back (rays_.placeBeside (p, q));
     for (std::size_t e = 0; e < fan.size (); ++e) {
       const Eigen::Vector2d back = -places[e];
       for (std::size_t t = 0; t < fan.size (); ++t) {

@@ -334,16 +334,12 @@ looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint&
 {
   constexpr std::size_t DIRECTIONS = 200, COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
-  const double least = std::cos (limits.all_sides * DEGREE);
-  for (std::size_t k = 0; k < DIRECTIONS; ++k) {
-    const Eigen::Vector3d side = spiralDirection (k, DIRECTIONS);
-    bool has_ray = false;
-    for (std::size_t p = 0; p < positions.size () && !has_ray; p += step)
-      has_ray = side.dot (rayTo (positions[p], viewpoint).direction) > least;
-    if (!has_ray)
-      return false;
-  }
-  return true;
+  std::vector<Eigen::Vector3d> directions;
+  for (std::size_t p = 0; p < positions.size (); p += step)
+    directions.push_back (rayTo (positions[p], viewpoint).direction);
+  double cosine = 0.0;
+  emptyDirection (directions, DIRECTIONS, cosine);
+  return cosine > std::cos (limits.all_sides * DEGREE);
 }
 
 std::vector<Index>

@@ -12,32 +12,25 @@
 #include <limits>
 
 namespace pcl::floater {
-namespace {
-// Number of tried directions, and of rays compared with each. Finds cones of 5 degrees; the tear of
-// the plane only has to be small, and not among dense rays.
-constexpr std::size_t DIRECTIONS = 2000, COMPARED = 2000;
-
-// A direction in the widest of the cones without rays.
 Eigen::Vector3d
-emptyDirection (const std::vector<Eigen::Vector3d>& directions)
+emptyDirection (const std::vector<Eigen::Vector3d>& directions, std::size_t tries, double& cosine)
 {
+  constexpr std::size_t COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, directions.size () / COMPARED);
   Eigen::Vector3d best = Eigen::Vector3d::UnitZ ();
-  double best_cosine = std::numeric_limits<double>::infinity ();
-  for (std::size_t k = 0; k < DIRECTIONS; ++k) {
-    const Eigen::Vector3d tried = spiralDirection (k, DIRECTIONS);
-    double cosine = -1.0;
-    for (std::size_t p = 0; p < directions.size () && cosine < best_cosine; p += step)
-      cosine = std::max (cosine, tried.dot (directions[p]));
-    if (cosine < best_cosine) {
-      best_cosine = cosine;
+  cosine = std::numeric_limits<double>::infinity ();
+  for (std::size_t k = 0; k < tries; ++k) {
+    const Eigen::Vector3d tried = spiralDirection (k, tries);
+    double nearest = -1.0;
+    for (std::size_t p = 0; p < directions.size () && nearest < cosine; p += step)
+      nearest = std::max (nearest, tried.dot (directions[p]));
+    if (nearest < cosine) {
+      cosine = nearest;
       best = tried;
     }
   }
   return best;
 }
-
-} // namespace
 
 Ray
 rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint)
@@ -76,8 +69,10 @@ makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpo
   });
   // Seen from the sensor, x to y is anti-clockwise: the frame is right-handed about a vector
   // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
-  const Eigen::Vector3d pole =
-      viewpoint.is_far ? Eigen::Vector3d (-viewpoint.place) : emptyDirection (rays.directions);
+  constexpr std::size_t TRIES = 2000; // finds cones of 5 degrees: the tear of the plane is small
+  double cosine = 0.0;
+  const Eigen::Vector3d pole = viewpoint.is_far ? Eigen::Vector3d (-viewpoint.place)
+                                                : emptyDirection (rays.directions, TRIES, cosine);
   const Eigen::Vector3d x = pole.unitOrthogonal ();
   const Eigen::Vector3d y = pole.cross (x);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
@@ -92,22 +87,16 @@ makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpo
   return rays;
 }
 
-RayFrame::RayFrame (const Rays& rays, Index centre) : rays_ (rays), centre_ (centre)
-{
-  if (rays.are_parallel)
-    return;
-  x_ = rays.directions[centre].unitOrthogonal ();
-  y_ = x_.cross (rays.directions[centre]); // towards the sensor, x to y is anti-clockwise
-}
-
 Eigen::Vector2d
-RayFrame::operator() (Index point) const
+Rays::placeBeside (Index p, Index q) const
 {
-  if (rays_.are_parallel)
-    return rays_.places[point] - rays_.places[centre_];
-  const Eigen::Vector3d& direction = rays_.directions[point];
-  return Eigen::Vector2d (x_.dot (direction), y_.dot (direction)) /
-         rays_.directions[centre_].dot (direction);
+  if (are_parallel)
+    return places[q] - places[p];
+  const Eigen::Vector3d& across = directions[p];
+  const Eigen::Vector3d x = across.unitOrthogonal ();
+  const Eigen::Vector3d y = x.cross (across); // towards the sensor, x to y is anti-clockwise
+  return Eigen::Vector2d (x.dot (directions[q]), y.dot (directions[q])) /
+         across.dot (directions[q]);
 }
 
 PatchRays::PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,

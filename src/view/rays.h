@@ -33,6 +33,12 @@ struct Ray
 Ray
 rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint);
 
+/// A direction in the widest of the cones without rays, of those around evenly spread directions.
+/// \param directions of the rays; some 2000 of them are looked at
+/// \param[out] cosine of the angle to the nearest ray
+Eigen::Vector3d
+emptyDirection (const std::vector<Eigen::Vector3d>& directions, std::size_t tries, double& cosine);
+
 /// The rays to all points.
 struct Rays
 {
@@ -51,27 +57,15 @@ struct Rays
 
   /// Angle between two rays, or distance between parallel ones.
   double distance (Index p, Index q) const { return (directions[p] - directions[q]).norm (); }
+
+  /// Where the ray of q meets a plane across the ray of p, from that point of p.
+  Eigen::Vector2d placeBeside (Index p, Index q) const;
 };
 
 /// O(n).
 Rays
 makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
           const RunContext& run);
-
-/// A plane across the ray of one point, for the projection of rays near it.
-class RayFrame
-{
-public:
-  RayFrame (const Rays& rays, Index centre);
-
-  /// Intersection of the ray of a point with the plane.
-  Eigen::Vector2d operator() (Index point) const;
-
-private:
-  const Rays& rays_;
-  Index centre_;
-  Eigen::Vector3d x_ = Eigen::Vector3d::Zero (), y_ = Eigen::Vector3d::Zero ();
-};
 
 /// Points of a patch of rays, sorted by the angle to the first ray.
 using RayPatch = std::vector<Index>;

@@ -63,8 +63,11 @@ public:
         positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points);
     // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
     // least cost was .009 to .053 of the median.
-    rateByRays (candidates, patches);
-    if (!standsOut (candidates, evidence_.regularity))
+    parallelTasks (run_, count, [&] (std::size_t k) {
+      candidates[k].cost = costByRays (candidates[k].viewpoint, patches, run_.withThreads (1));
+    });
+    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    if (candidates.front ().cost > evidence_.regularity * candidates[count / 2].cost)
       return {};
     std::vector<RatedViewpoint> starts;
     for (const RatedViewpoint& candidate : candidates)
@@ -111,7 +114,7 @@ public:
       const RunContext one = run_.withThreads (1);
       const Viewpoint& place = candidates[k].viewpoint;
       candidates[k].cost =
-          costByRays (place, findRayPatches (positions_, place, coarse_, one), true, 1);
+          costByRays (place, findRayPatches (positions_, place, coarse_, one), one);
     });
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     candidates.resize (std::min (candidates.size (), limits_.by_rays));
@@ -147,7 +150,8 @@ private:
   {
     if (!found)
       return false;
-    const double cost = costByRays (*found, findRayPatches (positions_, *found, evidence_, run_));
+    const double cost =
+        costByRays (*found, findRayPatches (positions_, *found, evidence_, run_), run_);
     if (cost < best.cost)
       best = {cost, *found};
     return cost < EVEN;
@@ -264,32 +268,12 @@ private:
 
   // Only the spreads: towards the viewpoint they fall all the way, while the share of near rays
   // first rises where outlines begin to overlap.
-  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
-  {
-    return costByRays (viewpoint, patches, true, run_.threads ());
-  }
-
   double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches,
-                     bool with_rows, int threads) const
+                     const RunContext& run, bool with_rows = true) const
   {
-    const RayEvidence found = findRayEvidence (positions_, patches, viewpoint, evidence_,
-                                               run_.withThreads (threads), with_rows);
+    const RayEvidence found =
+        findRayEvidence (positions_, patches, viewpoint, evidence_, run, with_rows);
     return found.ray_spread + (with_rows ? found.row_spread : 0.0);
-  }
-
-  void rateByRays (std::vector<RatedViewpoint>& candidates,
-                   const std::vector<RayPatch>& patches) const
-  {
-    parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
-      candidates[k].cost = costByRays (candidates[k].viewpoint, patches, true, 1);
-    });
-  }
-
-  // Sorts candidates by cost. Returns whether the least one is a small share of the median.
-  static bool standsOut (std::vector<RatedViewpoint>& candidates, double share)
-  {
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    return candidates.front ().cost <= share * candidates[candidates.size () / 2].cost;
   }
 
   // Areas hardly separate far viewpoints: parallel rays are tried first.
@@ -328,16 +312,6 @@ private:
                             viewpoint, evidence_, run_);
   }
 
-  Viewpoint searchByRays (const Viewpoint& start, double step, double smallest_step,
-                          const std::vector<RayPatch>& patches, bool with_rows) const
-  {
-    const auto cost = [&] (const Viewpoint& v) {
-      return costByRays (v, patches, with_rows, run_.threads ());
-    };
-    return patternSearch (start, step, smallest_step, box_.center (), limits_.ray_evaluations, cost)
-        .viewpoint;
-  }
-
   // Along a far direction, nothing is beside.
   bool explains (const Viewpoint& viewpoint) const
   {
@@ -354,7 +328,12 @@ private:
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
-      viewpoint = searchByRays (viewpoint, step, 0.2 * step, patches, with_rows);
+      const auto cost = [&] (const Viewpoint& v) {
+        return costByRays (v, patches, run_, with_rows);
+      };
+      viewpoint =
+          patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
+              .viewpoint;
       step *= 0.4;
       const EvidenceExcess& excess = round >= EARLY     ? limits_.late
                                      : viewpoint.is_far ? limits_.early_from_far
