@@ -120,22 +120,23 @@ planesStep (const StepContext& context, std::size_t block)
   std::vector<Eigen::Vector3f> normals;
   StoredCloud& cloud = own.cloud;
   BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
-  const std::vector<Index> points = own.points ();
+  const std::vector<Index> points = pointsFrom (own.first, own.last);
   CsrLists nearest;
   if (own.outliers.empty ())
     nearest = StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points);
   else
     nearest = renewed = renewOwn (own, search, context);
   takeIn (points, nearest, cloud, search);
-  lookUntilInside (search, [&] (const LocalPoints& local,
-                                const std::vector<Eigen::Vector3d>& positions) {
+  do {
+    const PointBlock& local = search.block ();
+    const std::vector<Eigen::Vector3d>& positions = local.positions;
     const Index own_first = search.ownFirst (), own_last = search.ownLast ();
     const Rows rows = Rows::range (own_first, own_last);
-    CsrLists neighbors = local.toPlaces (points, nearest);
+    CsrLists neighbors = toPlaces (local, points, nearest);
     spacing = localSpacing (positions, neighbors, rows, context.run);
     BesideLines beside;
-    beside.neighbors.offsets.assign (local.size () + 1, 0);
-    beside.reach.assign (local.size (), 0.0F);
+    beside.neighbors.offsets.assign (positions.size () + 1, 0);
+    beside.reach.assign (positions.size (), 0.0F);
     if (isAnyOnLine (positions, neighbors, rows, context.limits.planes.least_aspect, context.run))
       beside =
           findBesideLines (positions, neighbors, spacing, search.tree (), rows,
@@ -145,7 +146,7 @@ planesStep (const StepContext& context, std::size_t block)
     beside_lists = {};
     for (Index p = own_first; p < own_last; ++p)
       appendRow (beside.neighbors.row (p), beside_lists);
-    local.toPoints (beside_lists.ids);
+    toPoints (local, beside_lists.ids);
     const auto keepOwn = [&] (auto& values) {
       values.erase (values.begin () + own_last, values.end ());
       values.erase (values.begin (), values.begin () + own_first);
@@ -154,7 +155,7 @@ planesStep (const StepContext& context, std::size_t block)
     keepOwn (beside_reach);
     keepOwn (spacing);
     keepOwn (normals);
-  });
+  } while (search.widen ());
   if (cloud.file ().count ("normals") > 0) {
     std::vector<Eigen::Vector3f> given;
     cloud.file ().append ("normals", own.first, own.last, given);
@@ -214,7 +215,7 @@ starsStep (const StepContext& context, std::size_t block)
   const Index first = own_block.first, last = own_block.last;
   const StarSettings settings = starSettings ({context.options, context.limits, context.run});
   StoredNeighbors stored (context, own_block.outliers, cloud.ranges ());
-  const std::vector<Index> own = own_block.points ();
+  const std::vector<Index> own = pointsFrom (first, last);
   const CsrLists beside_lists = stored.beside (own);
   CsrLists all_lists = stored.nearest (own);
   appendRows (beside_lists, all_lists);
@@ -232,47 +233,48 @@ starsStep (const StepContext& context, std::size_t block)
   std::vector<AreaSample> samples;
   bool is_first = true, are_sampled = false;
   takeIn (own, all_lists, cloud, search);
-  lookUntilInside (
-      search, [&] (const LocalPoints& local, const std::vector<Eigen::Vector3d>& positions) {
-        const std::vector<Eigen::Vector3f> normals =
-            stored.planes ().gather<Eigen::Vector3f> ("normals", search.block ().points);
-        const CsrLists neighbors = local.toPlaces (own, all_lists);
-        const Index own_first = search.ownFirst ();
-        BesideLines beside;
-        beside.neighbors = local.toPlaces (own, beside_lists);
-        beside.reach.assign (local.size (), 0.0F);
-        std::copy (own_reach.begin (), own_reach.end (), beside.reach.begin () + own_first);
-        std::vector<float> spacing (local.size (), 0.0F);
-        std::copy (own_spacing.begin (), own_spacing.end (), spacing.begin () + own_first);
-        const BeyondNeighbors beyond{search.tree (), spacing, beside, settings.reach};
-        std::vector<Index> left_places = left;
-        local.toPlaces (left_places);
-        const Rows rows =
-            is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
-        const Stars begun =
-            beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
-        Stars made;
-        for (std::size_t i = 0; i < rows.size (); ++i)
-          appendStar (begun, rows[i], made);
-        local.toPoints (made.neighbors.ids);
-        local.toPoints (made.far_neighbors.ids);
-        if (is_first)
-          all = made;
-        else
-          replaceStars (left, made, first, all);
-        is_first = false;
-        left = search.left ();
-        if (!are_sampled) {
-          search.hasLeft ();
-          std::vector<Index> places = centres;
-          local.toPlaces (places);
-          const Stars stars =
-              makeStarsOf (places, positions, neighbors, normals, settings, context.run, &beyond);
-          are_sampled = !search.hasLeft ();
-          if (are_sampled)
-            samples = takeAreaSamples (places, positions, stars);
-        }
-      });
+  do {
+    const PointBlock& local = search.block ();
+    const std::vector<Eigen::Vector3d>& positions = local.positions;
+    const std::vector<Eigen::Vector3f> normals =
+        stored.planes ().gather<Eigen::Vector3f> ("normals", local.points);
+    const CsrLists neighbors = toPlaces (local, own, all_lists);
+    const Index own_first = search.ownFirst ();
+    BesideLines beside;
+    beside.neighbors = toPlaces (local, own, beside_lists);
+    beside.reach.assign (positions.size (), 0.0F);
+    std::copy (own_reach.begin (), own_reach.end (), beside.reach.begin () + own_first);
+    std::vector<float> spacing (positions.size (), 0.0F);
+    std::copy (own_spacing.begin (), own_spacing.end (), spacing.begin () + own_first);
+    const BeyondNeighbors beyond{search.tree (), spacing, beside, settings.reach};
+    std::vector<Index> left_places = left;
+    toPlaces (local, left_places);
+    const Rows rows =
+        is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
+    const Stars begun =
+        beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
+    Stars made;
+    for (std::size_t i = 0; i < rows.size (); ++i)
+      appendStar (begun, rows[i], made);
+    toPoints (local, made.neighbors.ids);
+    toPoints (local, made.far_neighbors.ids);
+    if (is_first)
+      all = made;
+    else
+      replaceStars (left, made, first, all);
+    is_first = false;
+    left = search.left ();
+    if (!are_sampled) {
+      search.hasLeft ();
+      std::vector<Index> places = centres;
+      toPlaces (local, places);
+      const Stars stars =
+          makeStarsOf (places, positions, neighbors, normals, settings, context.run, &beyond);
+      are_sampled = !search.hasLeft ();
+      if (are_sampled)
+        samples = takeAreaSamples (places, positions, stars);
+    }
+  } while (search.widen ());
   ArrayWriter writer;
   writeLists ("stars", all.neighbors, writer);
   writeLists ("far", all.far_neighbors, writer);

@@ -82,10 +82,6 @@ findStep (const std::string& name);
 std::vector<Index>
 readOutliers (const StepContext& context);
 
-/// The name of the file of the points without outliers.
-const char*
-pointsLeft (const std::vector<Index>& outliers);
-
 /// Writes a working set and what is needed to cut it.
 /// \param name POINTS or POINTS_LEFT
 /// \param gross_outliers cloud indices

@@ -226,7 +226,8 @@ planStep (const Job& job, FolderStore& store)
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
   store.finish ();
-  store.putText (MANIFEST, manifestText (plan)); // last: with it, the step is finished
+  writeFile (store.path (MANIFEST), manifestText (plan),
+             true); // last: with it, the step is finished
   return EXIT_OK;
 }
 
@@ -266,7 +267,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   report.warnings.insert (report.warnings.begin (), plan.warnings.begin (), plan.warnings.end ());
   reportMemory (line, report);
   line.input = job.inputs.front ();
-  store.putText (REPORT, reportText (line, report, figures));
+  writeFile (store.path (REPORT), reportText (line, report, figures), true);
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);

@@ -105,12 +105,10 @@ RemoteStore::open (const std::string& name)
 }
 
 void
-RemoteStore::put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan)
+RemoteStore::put (const std::string& name, const std::function<void (const TakeBytes&)>& emit)
 {
   Message message{Topic::PUT, 0, 0, name + "\n"};
-  arrays.emit (plan, [&message] (const char* bytes, std::size_t count) {
-    message.text.append (bytes, count);
-  });
+  emit ([&message] (const char* bytes, std::size_t count) { message.text.append (bytes, count); });
   processes_.send (0, message);
   processes_.receive (0); // it is on the disk
 }

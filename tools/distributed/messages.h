@@ -77,7 +77,7 @@ public:
 
   std::string describe (const std::string& name) const override { return name + " of process 0"; }
   ByteSource open (const std::string& name) override;
-  void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) override;
+  void put (const std::string& name, const std::function<void (const TakeBytes&)>& emit) override;
 
 private:
   Processes& processes_;

@@ -169,8 +169,16 @@ public:
   virtual ByteSource open (const std::string& name) = 0;
 
   /// Writes a file that is visible when it is complete.
+  /// \param emit passes on its bytes
   /// \throws WriteError
-  virtual void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) = 0;
+  virtual void put (const std::string& name,
+                    const std::function<void (const TakeBytes&)>& emit) = 0;
+
+  /// \param plan of which the arrays are a part
+  void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan)
+  {
+    put (name, [&] (const TakeBytes& take) { arrays.emit (plan, take); });
+  }
 };
 
 /// The files are in a folder. They are visible when they are complete, and brought to the disk
@@ -187,13 +195,10 @@ public:
 
   std::string describe (const std::string& name) const override { return path (name).string (); }
   ByteSource open (const std::string& name) override;
-  void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan) override
-  {
-    put (name, [&] (const TakeBytes& take) { arrays.emit (plan, take); });
-  }
+  using Store::put;
 
-  /// The same for any bytes. Two threads may put files at the same time.
-  void put (const std::string& name, const std::function<void (const TakeBytes&)>& emit);
+  /// Two threads may put files at the same time.
+  void put (const std::string& name, const std::function<void (const TakeBytes&)>& emit) override;
 
   /// Removes a file, if it is there. Others that are open go on to read it.
   void remove (const std::string& name) const;
@@ -201,13 +206,6 @@ public:
   /// Waits until all files are on the disk.
   /// \throws WriteError if one is not; it is removed
   void finish ();
-
-  /// Writes a text that is on the disk at once.
-  /// \throws WriteError
-  void putText (const std::string& name, const std::string& text) const
-  {
-    writeFile (path (name), text, true);
-  }
 
 private:
   std::filesystem::path folder_;

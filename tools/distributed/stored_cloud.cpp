@@ -52,46 +52,33 @@ appendRow (const Row& row, CsrLists& all)
   all.offsets.push_back (static_cast<Index> (all.ids.size ()));
 }
 
-LocalPoints::LocalPoints (const std::vector<Index>& points) : points_ (points)
+void
+toPlaces (const PointBlock& block, std::vector<Index>& points)
 {
-  for (Index place = 0; place < points.size (); ++place) {
-    if (runs_.empty () || runs_.back ().last != points[place])
-      runs_.push_back ({points[place], points[place], place});
-    ++runs_.back ().last;
+  const auto isAt = [&block] (Index place, Index point) {
+    return place < block.points.size () && block.points[place] == point;
+  };
+  Index place = 0; // of the last one
+  for (Index& point : points) {
+    place += point - block.points[place]; // mostly, all points between are in the block
+    if (!isAt (place, point))
+      place = block.placeOf (point);
+    const bool is_there = isAt (place, point);
+    point = is_there ? place : NONE;
+    place = is_there ? place : 0;
   }
 }
 
-Index
-LocalPoints::placeOf (Index point) const
-{
-  // Mostly in the same run as the last one that was asked for.
-  if (hint_ < runs_.size () && runs_[hint_].first <= point && point < runs_[hint_].last)
-    return runs_[hint_].place + (point - runs_[hint_].first);
-  const auto after = std::upper_bound (runs_.begin (), runs_.end (), point,
-                                       [] (Index p, const Run& run) { return p < run.first; });
-  if (after == runs_.begin () || point >= (after - 1)->last)
-    return NONE;
-  hint_ = static_cast<std::size_t> (after - 1 - runs_.begin ());
-  return (after - 1)->place + (point - (after - 1)->first);
-}
-
-void
-LocalPoints::toPlaces (std::vector<Index>& points) const
-{
-  for (Index& point : points)
-    point = placeOf (point);
-}
-
 CsrLists
-LocalPoints::toPlaces (const std::vector<Index>& rows, CsrLists lists) const
+toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists)
 {
   CsrLists places;
-  places.offsets.assign (points_.size () + 1, 0);
+  places.offsets.assign (block.points.size () + 1, 0);
   for (std::size_t i = 0; i < rows.size (); ++i)
-    places.offsets[placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
+    places.offsets[block.placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
   sumRowLengths (places.offsets);
   places.ids = std::move (lists.ids);
-  toPlaces (places.ids);
+  toPlaces (block, places.ids);
   return places;
 }
 
@@ -99,29 +86,24 @@ void
 takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
         BlockSearch& search)
 {
-  lookUntilInside (search,
-                   [&] (const LocalPoints& local, const std::vector<Eigen::Vector3d>& positions) {
-                     for (std::size_t i = 0; i < rows.size (); ++i) {
-                       std::vector<Index> missing;
-                       for (const Index q : lists.row (i))
-                         if ((q < rows.front () || q > rows.back ()) && local.placeOf (q) == NONE)
-                           missing.push_back (q);
-                       if (missing.empty ())
-                         continue;
-                       sortUnique (missing);
-                       const Eigen::Vector3d& here = positions[local.placeOf (rows[i])];
-                       double farthest = 0.0;
-                       for (const Eigen::Vector3d& there : cloud.gather (missing))
-                         farthest = std::max (farthest, (there - here).norm ());
-                       search.watch ().looked (here, farthest);
-                     }
-                   });
-}
-
-const char*
-pointsLeft (const std::vector<Index>& outliers)
-{
-  return outliers.empty () ? POINTS : POINTS_LEFT;
+  do {
+    const PointBlock& block = search.block ();
+    for (std::size_t i = 0; i < rows.size (); ++i) {
+      std::vector<Index> missing;
+      for (const Index q : lists.row (i))
+        if ((q < rows.front () || q > rows.back ()) &&
+            !std::binary_search (block.points.begin (), block.points.end (), q))
+          missing.push_back (q);
+      if (missing.empty ())
+        continue;
+      sortUnique (missing);
+      const Eigen::Vector3d& here = block.positions[block.placeOf (rows[i])];
+      double farthest = 0.0;
+      for (const Eigen::Vector3d& there : cloud.gather (missing))
+        farthest = std::max (farthest, (there - here).norm ());
+      search.watch ().looked (here, farthest);
+    }
+  } while (search.widen ());
 }
 
 void

@@ -102,44 +102,23 @@ writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer
 void
 appendRow (const Row& row, CsrLists& all);
 
-/// Points of a part of the working set, and where they are in it.
-class LocalPoints
+/// Replaces points by their places in a block; NONE if they are not in it.
+void
+toPlaces (const PointBlock& block, std::vector<Index>& points);
+
+/// Lists of places for all points of a block, of lists of points of some. Those of the others are
+/// empty.
+/// \param rows whose lists are given, as points, ascending; all in the block
+CsrLists
+toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists);
+
+/// Replaces places in a block by their points.
+inline void
+toPoints (const PointBlock& block, std::vector<Index>& places)
 {
-public:
-  /// \param points ascending; must outlive this
-  explicit LocalPoints (const std::vector<Index>& points);
-
-  std::size_t size () const { return points_.size (); }
-
-  /// Place of a point; NONE if it is not in the part.
-  Index placeOf (Index point) const;
-
-  /// Replaces points by their places.
-  void toPlaces (std::vector<Index>& points) const;
-
-  /// Replaces places by their points.
-  void toPoints (std::vector<Index>& places) const
-  {
-    for (Index& place : places)
-      place = points_[place];
-  }
-
-  /// Lists of places for all points of the part, of lists of points of some. Those of the others
-  /// are empty.
-  /// \param rows whose lists are given, as points, ascending; all in the part
-  CsrLists toPlaces (const std::vector<Index>& rows, CsrLists lists) const;
-
-private:
-  struct Run
-  {
-    Index first, last; // points, one past the last
-    Index place;       // of the first
-  };
-
-  const std::vector<Index>& points_;
-  std::vector<Run> runs_; // of points that follow each other
-  mutable std::size_t hint_ = 0;
-};
+  for (Index& place : places)
+    place = block.points[place];
+}
 
 using Box = BlockCutter::Box;
 
@@ -155,7 +134,7 @@ pointsFrom (Index first, Index last)
 class StoredCloud
 {
 public:
-  /// \param name POINTS, or pointsLeft (outliers)
+  /// \param name POINTS, or POINTS_LEFT if there are outliers
   StoredCloud (const StepContext& context, const char* name)
       : file_ (openArrays (context.store, name, context.plan)),
         ranges_ (context.plan, file_.count ("positions")),
@@ -238,31 +217,18 @@ private:
 struct OwnBlock
 {
   OwnBlock (const StepContext& context, std::size_t block)
-      : outliers (readOutliers (context)), cloud (context, pointsLeft (outliers)),
+      : outliers (readOutliers (context)),
+        cloud (context, outliers.empty () ? POINTS : POINTS_LEFT),
         first (cloud.ranges ().first (block)), last (cloud.ranges ().last (block))
   {
   }
 
   bool isEmpty () const { return first == last; }
 
-  /// The own points, ascending.
-  std::vector<Index> points () const { return pointsFrom (first, last); }
-
   std::vector<Index> outliers;
   StoredCloud cloud; ///< without them
   Index first, last; ///< the own points, and one behind the last
 };
-
-/// Calls look (points of the block, positions) until no search leaves the block: each time one has
-/// left it, the block is cut anew with the balls in which the searches looked.
-template <typename Look>
-void
-lookUntilInside (BlockSearch& search, Look&& look)
-{
-  do
-    look (LocalPoints (search.block ().points), search.block ().positions);
-  while (search.widen ());
-}
 
 /// Widens a block until all points of these lists are in it.
 /// \param rows  own points, ascending
