@@ -31,10 +31,6 @@ checkInput (const Input& input)
       return refused ("there are " + std::to_string (normals->size ()) +
                       " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
                       " points; give one for each, or none");
-  if (input.lattice_width != 0 && input.cloud_size % input.lattice_width != 0)
-    return refused ("the rows of the organized cloud have " + std::to_string (input.lattice_width) +
-                    " points, but the whole cloud has " + std::to_string (input.cloud_size) +
-                    "; give a divisor of that, or 0");
   if (indices.empty ())
     return {};
   const Index largest = *std::max_element (indices.begin (), indices.end ());
@@ -157,7 +153,6 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
   if (Problem problem = cleanInput (input, options, request.limits, run, report))
     return problem;
   points = makePoints (input.positions, input.cloud_index, run);
-  points.lattice_width = input.lattice_width;
   points.normals = normalsOfPoints (input.normals, points);
   std::vector<Eigen::Vector3f> ().swap (input.normals);
   points.facing_normals = normalsOfPoints (input.facing_normals, points);

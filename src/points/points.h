@@ -36,7 +36,6 @@ struct Points
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
   StackedPoints stacked; ///< if any: each position is the mean of a point and those it stands for
-  std::size_t lattice_width = 0; ///< organized cloud: points of a row; otherwise 0
   double diagonal =
       1.0; ///< of the bounding box of the positions; 1/2 to 1 after points were removed
   std::vector<Index> non_finite;                ///< cloud indices, ascending

@@ -124,7 +124,6 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 {
   report.is_view = true;
   report.is_far_view = viewpoint.is_far;
-  report.is_view_by_pixels = surface.is_by_pixels;
   Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = inCloud (points, viewpoint);
   report.statistics.holes_filled = surface.holes_filled;
   report.statistics.view_steps = surface.steps;

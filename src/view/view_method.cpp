@@ -7,7 +7,6 @@
 #include "mesh/check.h"
 #include "mesh/trimming.h"
 #include "mesh/vertex_stars.h"
-#include "view/lattice_view.h"
 
 #include <algorithm>
 
@@ -55,18 +54,6 @@ inOrder (const TriangleMesh& mesh, const RunContext& run)
     for (const Index p : sorted.triangles[t])
       sorted.triangle_of[p] = t;
   return sorted;
-}
-
-// Uses the pixels of an organized cloud if they are in the order of the rays.
-TriangleMesh
-triangulateRays (const Rays& rays, const Points& points, const RunContext& run, bool& is_by_pixels)
-{
-  constexpr std::size_t LEAST_WIDTH = 2;
-  std::optional<TriangleMesh> mesh;
-  if (points.lattice_width >= LEAST_WIDTH)
-    mesh = triangulateLattice (rays.places, points.cloud_index, points.lattice_width, run);
-  is_by_pixels = mesh.has_value ();
-  return inOrder (mesh ? *mesh : triangulateHull (rays.places), run);
 }
 
 // Fills the loops that the policy does not keep. All loops are at a gap or a depth step.
@@ -205,7 +192,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   TriangleMesh& mesh = surface.mesh;
   run.beginStage (Stage::DELAUNAY);
   const Rays rays = makeRays (points.positions, viewpoint, run);
-  mesh = triangulateRays (rays, points, run, surface.is_by_pixels);
+  mesh = inOrder (triangulateHull (rays.places), run);
 
   run.beginStage (Stage::HOLES);
   std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);

@@ -70,7 +70,6 @@ struct ViewSurface
   std::size_t gaps = 0;                 ///< triangles left out in gaps
   std::vector<std::uint8_t> is_at_step; ///< of each point: 1 if a triangle around it was left out
                                         ///< at a depth step
-  bool is_by_pixels = false; ///< triangulated by the rows and columns of an organized cloud
 };
 
 /// Triangulates the rays, leaves out triangles in gaps or across depth steps, and chooses

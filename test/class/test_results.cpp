@@ -378,7 +378,6 @@ TEST_F (FloaterClass, TakesTheSensorOriginAndTheRowsOfACloud)
     const Report& report = floater.getReport ();
     EXPECT_TRUE (report.is_view);
     EXPECT_FALSE (report.is_far_view);
-    EXPECT_EQ (report.is_view_by_pixels, is_image);
     EXPECT_EQ (report.check.components, 2U);
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_NEAR (report.viewpoint.at (static_cast<std::size_t> (axis)), at[axis], 1e-9);

@@ -141,8 +141,6 @@ TEST (RunStatus, InvalidInput)
   expectRefusal ([] (Input& input) { input.cloud_index.push_back (0); }, size + " positions");
   expectRefusal ([] (Input& input) { input.cloud_index.clear (); }, "0 cloud indices");
   expectRefusal ([] (Input& input) { input.cloud_size = 10; }, "outside the cloud of size 10");
-  expectRefusal ([] (Input& input) { input.lattice_width = input.cloud_size - 1; },
-                 "rows of the organized cloud");
   expectRefusal ([] (Input& input) { input.cloud_index[3] = 4'000'000'000; }, "4000000000");
   expectRefusal ([] (Input& input) { input.cloud_index[20] = 5; }, "5 is given twice");
   expectRefusal ([] (Input& input) { input.normals.resize (input.cloud_size - 1); }, "normals");

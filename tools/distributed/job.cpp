@@ -219,7 +219,6 @@ planStep (const Job& job, FolderStore& store)
   plan.blocks =
       job.blocks > 0 ? job.blocks : (points.size () + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK;
   plan.selected_points = report.statistics.selected_points;
-  plan.lattice_width = points.lattice_width;
   plan.scale = points.scale;
   plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
@@ -254,7 +253,6 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   Input input;
   input.cloud_size = plan.cloudSize ();
   input.sensor_origin = plan.sensor_origin;
-  input.lattice_width = plan.lattice_width;
   Options options = line.options;
   options.threads = job.join_threads;
   Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -= plan.shift ();

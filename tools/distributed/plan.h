@@ -31,7 +31,7 @@ struct Plan
   std::string parameters;             ///< those that decide the result, as text
   std::size_t points = 0;             ///< of the working set, with outliers
   std::size_t blocks = 0;
-  std::size_t selected_points = 0, lattice_width = 0;
+  std::size_t selected_points = 0;
   std::array<double, 3> centre{}, sensor_origin{};
   double scale = 1.0;
   std::vector<std::string> warnings; ///< of the cloud

@@ -22,7 +22,7 @@
 
 namespace pcl::floater {
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 9;
+constexpr std::uint32_t WORK_FORMAT = 10;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
 class WorkError : public std::runtime_error

@@ -147,7 +147,6 @@ readPoints (Store& store, const std::string& name, const Plan& plan,
     file.require (normals->empty () || normals->size () == count);
   points.centre = Eigen::Map<const Eigen::Vector3d> (plan.centre.data ());
   points.scale = plan.scale;
-  points.lattice_width = plan.lattice_width;
   return points;
 }
 

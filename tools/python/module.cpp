@@ -166,16 +166,15 @@ toPython (const nlohmann::ordered_json& json)
   return py::module_::import ("json").attr ("loads") (text);
 }
 
-/// \param lattice_width of an organized cloud: points of a row; else 0
 /// \param normals as many as points, or None
 /// \param sensor_origin three numbers, or None
 /// \param loop a list of indices
 /// \return status, message, what strict objects to, warnings, the part of the report that the core
 /// knows, and the arrays
 py::tuple
-run (const py::buffer& points, std::size_t lattice_width, const py::object& normals,
-     const py::object& sensor_origin, bool use_input_normals, std::vector<std::uint32_t> loop,
-     const py::dict& given, const py::object& progress)
+run (const py::buffer& points, const py::object& normals, const py::object& sensor_origin,
+     bool use_input_normals, std::vector<std::uint32_t> loop, const py::dict& given,
+     const py::object& progress)
 {
   Options options;
   visitOptions (options, OptionsReader{given});
@@ -187,7 +186,6 @@ run (const py::buffer& points, std::size_t lattice_width, const py::object& norm
     throw py::value_error (problem.message);
 
   Input input;
-  input.lattice_width = lattice_width;
   if (!sensor_origin.is_none ())
     input.sensor_origin = sensor_origin.cast<std::array<double, 3>> ();
   if (!normals.is_none ()) {

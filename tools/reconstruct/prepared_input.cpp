@@ -46,7 +46,6 @@ makeInput (const Cloud& cloud)
   Input input;
   input.positions = cloud.positions ();
   input.cloud_size = cloud.size ();
-  input.lattice_width = cloud.lattice_width;
   input.sensor_origin = cloud.sensor_origin;
   for (std::size_t row = 0; row < cloud.size (); ++row)
     if (!cloud.isLeftOut (row)) {

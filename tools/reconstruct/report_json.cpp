@@ -196,7 +196,6 @@ viewpointJson (const Report& report)
   if (!report.is_view)
     return {};
   return {{"is_far", report.is_far_view},
-          {"by_pixels", report.is_view_by_pixels},
           {report.is_far_view ? "direction" : "place", report.viewpoint}};
 }
 

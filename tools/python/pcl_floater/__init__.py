@@ -84,12 +84,11 @@ def _with_lists(report, arrays):
 
 
 def _as_list(name, given):
-    """The rows of a list, or of an organized cloud, and the number of columns of that, else 0."""
+    """The rows of a list, or of an organized cloud."""
     array = np.asanyarray(given)
     if array.ndim != 3 or array.shape[2] != 3:
-        return _arrays.as_rows(name, given, "(n, 3) or (rows, columns, 3)"), 0
-    rows, columns = array.shape[:2]
-    return _arrays.as_rows(name, array.reshape(-1, 3)), columns if rows > 1 and columns > 1 else 0
+        return _arrays.as_rows(name, given, "(n, 3) or (rows, columns, 3)")
+    return _arrays.as_rows(name, array.reshape(-1, 3))
 
 
 def _loop(given):
@@ -153,8 +152,7 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
     points : array, shape (n, 3) or (rows, columns, 3), float32 or float64
         The cloud. It may have any strides, so that `scan[:, :3]` is not copied. Points with a NaN or
         infinite coordinate, and repeated points, are in no triangle. Of an organized cloud, as a depth
-        camera gives it, the points are counted row by row; one that was seen from `sensor_origin` is
-        connected in less time by its rows and columns, with the same mesh.
+        camera gives it, the points are counted row by row.
     normals : array, of the shape of the points, float32 or float64, optional
         Normals of the points, of any length. With `facing` "auto" or "normals" they tell where the
         front is; see also `use_input_normals`. Where one is zero or not finite, it tells nothing.
@@ -203,7 +201,7 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
     strict = _arrays.as_flag("strict", strict)
     progress = _arrays.as_callable("progress", progress)
     use_input_normals = _arrays.as_flag("use_input_normals", use_input_normals)
-    array, columns = _as_list("points", points)
+    array = _as_list("points", points)
     options = _options(options)
     if sensor_origin is not None:
         sensor_origin = _arrays.as_place("sensor_origin", sensor_origin)
@@ -212,14 +210,14 @@ def reconstruct(points, *, normals=None, sensor_origin=None, use_input_normals=F
     if normals is None and use_input_normals:
         raise ValueError("use_input_normals=True needs normals")
     if normals is not None:
-        normals = _as_list("normals", normals)[0]
+        normals = _as_list("normals", normals)
         if not use_input_normals and options.get("facing", "auto") not in ("auto", "normals"):
             raise ValueError("normals are given, but facing does not ask for them: leave them out, or set "
                              "facing='normals' or use_input_normals=True")
         if len(normals) != len(array):
             raise ValueError(f"there are {len(normals)} normals of {len(array)} points; give one for each point")
     status, message, objection, warnings, known, arrays = _core.run(
-        array, columns, normals, sensor_origin, use_input_normals, [] if loop is None else _loop(loop), options, progress)
+        array, normals, sensor_origin, use_input_normals, [] if loop is None else _loop(loop), options, progress)
     arrays = {name: None if values is None else np.asarray(values) for name, values in arrays.items()}
     if strict and objection:
         status, message = "REFUSED", f"{objection}, which strict does not allow"

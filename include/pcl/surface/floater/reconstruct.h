@@ -65,10 +65,6 @@ struct Input
   /// Was subtracted from all coordinates before: points that stand for no measurement, such as
   /// (0, 0, 0), are recognized by what they were.
   std::array<double, 3> shift{};
-
-  /// Organized cloud: number of points of a row; cloud index = row * lattice_width + column. 0: not
-  /// organized. It makes single scans faster; their triangles are the same.
-  std::size_t lattice_width = 0;
 };
 
 /// A mesh and the report on the run that made it.

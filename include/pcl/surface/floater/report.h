@@ -300,7 +300,6 @@ struct Report
   bool denoised = false;             ///< points were connected by their projections on local planes
   bool is_view = false;              ///< the points are one scan, connected as its sensor saw them
   bool is_far_view = false;          ///< the sensor is so far away that its rays are parallel
-  bool is_view_by_pixels = false;    ///< the rows and columns of an organized cloud were used
   std::array<double, 3> viewpoint{}; ///< of the sensor; for a far view, direction of its rays
   std::vector<std::uint32_t> loop;   ///< longest boundary loop, in order, each point once
   /// Disc: position of each cloud point in the plane, NaN where unused; triangles are

@@ -235,8 +235,6 @@ FloaterReconstruction<PointT>::triangulate (std::vector<pcl::Vertices>& polygons
     return;
   floater::Input input;
   input.cloud_size = size;
-  if (input_->isOrganized () && std::size_t{input_->width} * input_->height == size)
-    input.lattice_width = input_->width;
   Eigen::Map<Eigen::Vector3d> (input.sensor_origin.data ()) =
       input_->sensor_origin_.template head<3> ().template cast<double> ();
   input.positions.reserve (indices_->size ());
