@@ -156,9 +156,9 @@ VertexSplitter::bestCut (Index v, Index p, const Return* given)
     if (has_end)
       cost += last.last;
     if (has_begin != has_end)
-      cost += limits_.boundary * (gap + (has_begin && from < m ? places_[m].length_p
-                                         : has_end && to > 0   ? places_[0].length_p
-                                                               : 0.0));
+      cost += limits_.boundary * (longest + (has_begin && from < m ? places_[m].length_p
+                                             : has_end && to > 0   ? places_[0].length_p
+                                                                   : 0.0));
     else if (cost < best.cost || given != nullptr)
       cost += bend (first.needle, -last.needle, gap);
     if (cost < best.cost)

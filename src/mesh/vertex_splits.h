@@ -20,7 +20,9 @@ struct SplitLimits
   double fold = 30.0;           ///< of a fold, or a triangle without area, in longest edges of
                                 ///< the fan
   double flat = 0.03;           ///< sine of an angle; below, a triangle has no area
-  double boundary = 6.28;       ///< of an edge of the boundary, per length: else fins grow there
+  double boundary = 6.28;       ///< of an edge of the boundary, per length: else fins grow there.
+                                ///< One between two points of a stack counts as the longest edge
+                                ///< of the fan: else the boundary passes through both
   double far = 10.0;            ///< per length from the point to the vertex that is split
   std::size_t passes = 10;      ///< over the points at folds
 };

@@ -113,9 +113,16 @@ measure (const Report& report, const VerdictLimits& limits)
   const std::string crossing_pairs =
       (has_more ? "more than " : "") +
       counted (pairs, "pair of triangles crosses", "pairs of triangles cross") + ", one for each " +
-      rounded (std::ceil (1.0 / crossing)) + " triangles, since " + why.cause;
+      rounded (std::ceil (1.0 / std::max (crossing, limits.crossing.good))) + " triangles, since " +
+      why.cause;
   return {
       {crossing, limits.crossing, {crossing_pairs, why.remedy}},
+      {report.is_view ? share (report.check.folds, triangles) : 0.0,
+       limits.folds,
+       {counted (report.check.folds, "edge is folded", "edges are folded") +
+            ", since the points are noisy along the rays",
+        "smooth the cloud (pcl::MovingLeastSquares), or thin it with a voxel grid several times as "
+        "wide as the noise"}},
       {area,
        limits.area,
        {percent (area) + " of the area is in 1 % of the triangles, since far or sparse points are "

@@ -19,6 +19,8 @@ struct VerdictBounds
 struct VerdictLimits
 {
   VerdictBounds crossing = {0.0005, 0.05};  ///< crossing pairs for each triangle
+  VerdictBounds folds = {0.05, 2.0};        ///< folds for each triangle of a view; never poor by
+                                            ///< itself. True meshes of noisy depth cameras: 0.015
   VerdictBounds area = {0.25, 0.5};         ///< share of the area in the largest 1 % of the
                                             ///< triangles: 2 % if even, 4 % with noise; not
                                             ///< for views

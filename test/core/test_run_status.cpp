@@ -226,7 +226,7 @@ TEST (Callbacks, ComeFromTheirThreadsAndChangeNothing)
 // Whether a run ends in a stage if it is cancelled after the poll at the begin of that stage. A
 // small cloud would be done before the next poll is due: so every poll is.
 bool
-isCancelledWithin (Stage stage, const Positions& points, Options options)
+isCancelledOnceWithin (Stage stage, const Positions& points, Options options)
 {
   Stage running = Stage::COUNT;
   int questions = 0; // within the stage
@@ -242,6 +242,17 @@ isCancelledWithin (Stage stage, const Positions& points, Options options)
   EXPECT_TRUE (report.status == RunStatus::CANCELLED || questions < 2) << report.message;
   EXPECT_GT (questions, 0) << "the run has not reached this stage";
   return report.status == RunStatus::CANCELLED && running == stage;
+}
+
+// After a callback that seems slow, polls rest for a while. On a busy machine this can be any: tries
+// again.
+bool
+isCancelledWithin (Stage stage, const Positions& points, const Options& options)
+{
+  bool is_cancelled = false;
+  for (int tries = 0; tries < 5 && !is_cancelled; ++tries)
+    is_cancelled = isCancelledOnceWithin (stage, points, options);
+  return is_cancelled;
 }
 
 TEST (Cancellation, IsSeenWithinStages)

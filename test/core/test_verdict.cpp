@@ -67,6 +67,8 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "95 % of the area");
   report.is_view = true; // far surfaces have few, large triangles
   EXPECT_EQ (judge (report).value, Quality::USABLE);
+  report.check.folds = 700;
+  expectIn (judge (report).cause, "700 edges are folded");
   report.unused.resize (600);
   expectIn (judge (report).cause, "12 % of the points are in no triangle");
   EXPECT_EQ (judge (report).value, Quality::POOR);

@@ -39,7 +39,6 @@ describe (Cloud& cloud)
            {"is_single", cloud.single_precision},
            {"has_colors", colorFields (cloud)[0] != nullptr},
            {"may_be_degrees", cloud.may_be_degrees},
-           {"lattice_width", cloud.lattice_width},
            {"sensor_origin", cloud.sensor_origin},
            {"towards_sensors", cloud.towards_sensors.size ()},
            {"left_out", cloud.left_out},

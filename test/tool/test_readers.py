@@ -335,11 +335,11 @@ PTX_HEAD = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n
 def test_scans_of_ptx(read):
     first = "2\n2\n" + PTX_HEAD + "1 2 3 .5\n0 0 0 .5\n4 5 6 .25\n7 8 9 1\n"
     one = read("a.ptx", first)
-    assert (one.lattice_width, one.sensor_origin, one.points[0]) == (2, [10, 20, 30], [8, 21, 33])
+    assert (one.sensor_origin, one.points[0]) == ([10, 20, 30], [8, 21, 33])
     assert (one.left_out, one.text) == ([False, True, False, False], "intensity 0.5 0.5 0.25 1")
     assert one.notes == ["1 scan: 2 x 2 pixels from (10, 20, 30)", "1 point without a return was left out"]
     two = read("a.ptx", first + "3\n1\n" + PTX_HEAD + "1 0 0 1\n1 0 1 1\n1 0 2 1\n\n")
-    assert (len(two.points), two.lattice_width, two.towards_sensors, two.values["scan"][4]) == (7, 0, 7, 1)
+    assert (len(two.points), two.towards_sensors, two.values["scan"][4]) == (7, 7, 1)
     assert read("a.ptx", "1\n1\n" + PTX_HEAD + "1 2 3 .5 7 8 9\n").text == "intensity 0.5, red 7, green 8, blue 9"
     assert "truncated" in read("a.ptx", first[:-9]).error
     assert "no number of the rows" in read("a.ptx", "9\n999\n" + PTX_HEAD).error

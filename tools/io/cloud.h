@@ -225,7 +225,6 @@ struct Cloud
   std::array<double, 3> sensor_origin{}; ///< of the sensor, if the file tells; not shifted
   std::vector<Field> fields;             ///< all but the coordinates
   std::size_t rows = 0;                  ///< points of the file
-  std::size_t lattice_width = 0;         ///< of an organized cloud: points of a row; else 0
   std::vector<bool> left_out;            ///< rows that are no points of the mesh; or empty
   std::vector<Eigen::Vector3f>
       towards_sensors;               ///< of several scans: normals to the seen side; or empty

@@ -258,12 +258,10 @@ parsePcd (const FileBytes& file, const ReadOptions& options)
   if (header.data == "binary")
     cloud.file = file;
   const std::size_t height = header.height.value_or (1);
-  if (height > 1 && header.points > height) { // one row, or rows of one point, are a list
-    cloud.lattice_width = header.points / height;
+  if (height > 1 && header.points > height) // one row, or rows of one point, are a list
     cloud.notes.push_back ("organized in " + counted (height, "row") + " of " +
-                           counted (cloud.lattice_width, "point") +
+                           counted (header.points / height, "point") +
                            ": the mesh has them as one list");
-  }
   if (has_more)
     cloud.warnings.push_back ("the input file has more data than the " +
                               counted (header.points, "point") +

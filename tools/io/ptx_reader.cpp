@@ -96,11 +96,10 @@ parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
   std::vector<Eigen::Vector3f> normals;
   std::size_t scan = 0;
   std::ostringstream scans;
-  std::size_t rows = 0, columns = 0;
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero ();
   while (!scanner.restIsBlank ()) {
-    columns = readCount (scanner, file.view ().size ());
-    rows = readCount (scanner, file.view ().size () / columns);
+    const std::size_t columns = readCount (scanner, file.view ().size ());
+    const std::size_t rows = readCount (scanner, file.view ().size () / columns);
     for (int line = 0; line < 4; ++line) // of the scanner, as the matrix has them
       readLine<3> (scanner);
     Eigen::Matrix<double, 4, 3> pose;
@@ -133,10 +132,8 @@ parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
     addColumns ({"scan"}, ScalarType::UINT16, std::move (pixels.scans), fields);
   Cloud cloud = makeCloud (std::move (fields), size, std::move (warnings));
   cloud.notes.push_back (counted (scan, "scan") + ": " + scans.str ());
-  if (scan == 1) {
+  if (scan == 1)
     Eigen::Map<Eigen::Vector3d> (cloud.sensor_origin.data ()) = sensor;
-    cloud.lattice_width = rows > 1 && columns > 1 ? rows : 0;
-  }
   else
     cloud.towards_sensors = std::move (normals);
   leaveOut (cloud, pixels.lack_return, "without a return");

@@ -88,6 +88,11 @@ TEST (VertexSplits, StacksAreConnectedWithoutFolds)
           p + 0.003 * Eigen::Vector3d (random.normal (), random.normal (), random.normal ()));
   const TriangleMesh mesh = expectSplits (sheet, stacked);
   positions.insert (positions.end (), stacked.begin (), stacked.end ());
+  // Half of the points at the rim are inside.
+  const auto rim = [] (const TriangleMesh& of) {
+    return samples::topologyOf (of.triangles).loops.front ().size ();
+  };
+  EXPECT_LT (rim (mesh), 2 * rim (connected (sheet)));
   SplitLimits bending_only;
   bending_only.fold = 0.0;
   const std::size_t folds = foldsOf (mesh, positions);
