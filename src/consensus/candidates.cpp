@@ -65,7 +65,8 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
         const bool in_q = hasTriangle (stars, q, r, p), in_r = hasTriangle (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
           continue; // q or r is its first corner
-        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, 0.0F, 0.0F};
+        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, false, 0.0F,
+                            0.0F};
         setCircumradiusRatio (positions, spacing, stars.reach, candidate);
         setNormalAgreement (positions, normals, candidate);
         const std::size_t rank = candidate.votes - 1U;

@@ -17,6 +17,7 @@ struct Candidate
                             ///< anti-clockwise seen from the normal of that corner
   std::uint8_t votes;       ///< corners whose stars have it, 1 to 3
   std::uint8_t clockwise;   ///< bit i: clockwise seen from the normal of corner i
+  bool is_taken;            ///< into the consensus
   float circumradius_ratio; ///< circumradius over the mean spacing of its corners
   float normal_agreement;   ///< least |cosine| between its normal and those of its corners
 };

@@ -129,7 +129,7 @@ private:
 // the orientation then spreads along triangles that agree best, like a minimum spanning forest.
 // \return number of candidates of three votes
 std::size_t
-putInOrder (std::vector<const Candidate*>& candidates)
+putInOrder (std::vector<Candidate*>& candidates)
 {
   const auto fewer_votes = std::stable_partition (
       candidates.begin (), candidates.end (), [] (const Candidate* c) { return c->votes == 3; });
@@ -146,12 +146,12 @@ putInOrder (std::vector<const Candidate*>& candidates)
 } // namespace
 
 Consensus
-buildConsensus (const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Candidate>& candidates, const CandidateLimits& limits,
-                std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+buildConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> candidates,
+                const CandidateLimits& limits, std::vector<Eigen::Vector3f>& normals,
+                const RunContext& run)
 {
-  std::vector<const Candidate*> doubtful;
-  for (const Candidate& candidate : candidates)
+  std::vector<Candidate*> doubtful;
+  for (Candidate& candidate : candidates)
     if (!isSure (candidate, limits))
       doubtful.push_back (&candidate);
   run.poll ();
@@ -161,14 +161,14 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions,
   ConsensusBuilder builder (positions, normals);
   for (std::size_t i = of_three_votes; i < doubtful.size (); ++i)
     builder.watch (doubtful[i]->corners);
-  std::vector<Index> taken; // candidates
-  const auto offer = [&] (const Candidate& candidate, bool test_sectors) {
-    if (builder.offer (candidate, test_sectors))
-      taken.push_back (static_cast<Index> (&candidate - candidates.data ()));
+  std::size_t taken = 0;
+  const auto offer = [&] (Candidate& candidate, bool test_sectors) {
+    candidate.is_taken = builder.offer (candidate, test_sectors);
+    taken += candidate.is_taken ? 1 : 0;
   };
   ProgressLoop progress (run, limits.sure_ranks * candidates.size () + doubtful.size ());
   for (std::size_t rank = 0; rank < limits.sure_ranks; ++rank)
-    for (const Candidate& candidate : candidates) {
+    for (Candidate& candidate : candidates) {
       progress.next ();
       if (candidate.votes == 3 && normalAgreementRank (candidate) == rank)
         offer (candidate, false);
@@ -179,18 +179,30 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions,
     offer (*doubtful[i], i >= of_three_votes);
   }
 
-  const CsrLists by_corner = makeCsrLists (positions.size (), [&] (const auto& emit) {
-    for (const Index i : taken)
-      emit (candidates[i].corners[0], i);
-  });
+  std::stable_sort (
+      doubtful.begin (), doubtful.end (),
+      [] (const Candidate* a, const Candidate* b) { return a->corners[0] < b->corners[0]; });
   Consensus consensus;
-  consensus.triangles.reserve (taken.size ());
-  consensus.votes.reserve (taken.size ());
-  for (const Index i : by_corner.ids) {
-    const Candidate& candidate = candidates[i];
+  consensus.triangles.reserve (taken);
+  consensus.votes.reserve (taken);
+  const auto append = [&] (const Candidate& candidate) {
+    if (!candidate.is_taken)
+      return;
     consensus.triangles.push_back (
         builder.orientation ().turned (candidate.corners, candidate.clockwise));
     consensus.votes.push_back (candidate.votes);
+  };
+  auto next = doubtful.begin ();
+  for (auto first = candidates.begin (), last = first; first != candidates.end (); first = last) {
+    const Index p = first->corners[0];
+    last = std::find_if (first, candidates.end (),
+                         [p] (const Candidate& candidate) { return candidate.corners[0] != p; });
+    for (std::size_t rank = 0; rank < limits.sure_ranks; ++rank)
+      for (auto candidate = first; candidate != last; ++candidate)
+        if (candidate->votes == 3 && normalAgreementRank (*candidate) == rank)
+          append (*candidate);
+    for (; next != doubtful.end () && (*next)->corners[0] == p; ++next)
+      append (**next);
   }
   consensus.seam = std::move (builder.seam ());
   builder.orientation ().turn (normals, run);

@@ -28,9 +28,9 @@ struct Consensus
 /// \param normals    in: unit normals by which the candidates were found; out: oriented like the
 ///     triangles
 Consensus
-buildConsensus (const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Candidate>& candidates, const CandidateLimits& limits,
-                std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+buildConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> candidates,
+                const CandidateLimits& limits, std::vector<Eigen::Vector3f>& normals,
+                const RunContext& run);
 
 /// Keeps the fan of most votes around every point, and removes small islands. An island is an open
 /// component with points of a larger component among its nearest neighbours: it lies in a hole of

@@ -40,8 +40,8 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   ConsensusMesh made;
   made.normals = std::move (stars.normals);
   stars = {};
-  Consensus consensus = buildConsensus (positions, candidates, limits.candidates, smoothed, run);
-  candidates = {};
+  Consensus consensus =
+      buildConsensus (positions, std::move (candidates), limits.candidates, smoothed, run);
   made.seam = std::move (consensus.seam);
   made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
   for (std::size_t p = 0; p < made.normals.size (); ++p)

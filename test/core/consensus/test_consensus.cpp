@@ -14,7 +14,7 @@ namespace {
 Candidate
 candidate (const Triangle& corners, std::uint8_t down, std::uint8_t votes = 3)
 {
-  return {corners, votes, down, 1.0F, 1.0F};
+  return {corners, votes, down, false, 1.0F, 1.0F};
 }
 
 std::vector<std::uint8_t>
