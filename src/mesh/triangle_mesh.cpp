@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/triangle_mesh.h"
 
-#include "core/disjoint_sets.h"
 #include "core/csr_lists.h"
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 

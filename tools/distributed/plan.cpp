@@ -17,8 +17,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE (InputFile, file, bytes, checksum)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE (RunFigures, input_points, notes, input_fields, single_precision,
                                     shift, vertices)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE (Plan, id, inputs, arguments, parameters, points, blocks,
-                                    selected_points, centre, sensor_origin, scale,
-                                    warnings, figures)
+                                    selected_points, centre, sensor_origin, scale, warnings,
+                                    figures)
 
 namespace {
 using ManifestJson = nlohmann::json;
