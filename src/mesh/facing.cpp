@@ -56,7 +56,7 @@ public:
         decideUp (o);
       else if (hints_.wanted == Facing::VIEWPOINT && isTowardsOneSide (sums) &&
                (sums.is_closed || !hints_.faces_sensor))
-        decideBySensor (o);
+        decideBySensor (o); // NOLINT(bugprone-branch-clone): the order is that of the evidence
       else if (sums.is_closed) {
         if (hints_.wanted == Facing::UP || hints_.wanted == Facing::VIEWPOINT)
           object.miss = FacingMiss::CLOSED;

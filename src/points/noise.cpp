@@ -374,6 +374,7 @@ projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   constexpr double OUTSIDE = 4.5; // standard deviations at which the weight vanishes
   constexpr int PASSES = 2;
   std::vector<PointSample> samples;
+  samples.reserve (std::size (STRIDES));
   for (const std::size_t stride : STRIDES)
     samples.emplace_back (positions, stride, run);
   std::vector<Eigen::Vector3d> projected = positions;

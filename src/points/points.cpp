@@ -233,6 +233,7 @@ std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed)
 {
   std::vector<Index> cloud_indices;
+  cloud_indices.reserve (removed.size ());
   for (const Index p : removed)
     cloud_indices.push_back (points.cloud_index[p]);
   removeStacked (points.stacked, removed, cloud_indices);

@@ -142,6 +142,7 @@ void
 reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report)
 {
   std::vector<Index> outliers;
+  outliers.reserve (unused.size ());
   for (const Index p : unused)
     outliers.push_back (points.cloud_index[p]);
   std::sort (outliers.begin (), outliers.end ());

@@ -235,6 +235,7 @@ untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vect
     if (static_cast<double> (flipped) > MOST_FLIPPED * static_cast<double> (triangles.size ()))
       return false;
     for (int ring = 0; ring < 1 + round / ROUNDS_PER_RING; ++ring)
+      // NOLINTNEXTLINE(modernize-loop-convert): they become more
       for (std::size_t i = 0, size = bad.size (); i < size; ++i)
         for (const Index id : corners.row (bad[i]))
           add (triangles[id / 3]);

@@ -178,7 +178,7 @@ class StoredNeighbors
 public:
   StoredNeighbors (const StepContext& context, const std::vector<Index>& outliers,
                    const BlockRanges& ranges)
-      : ranges_ (ranges), are_renewed_ (!outliers.empty ()),
+      : are_renewed_ (!outliers.empty ()),
         width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
                                        ranges.points () - 1)),
         found_ (context, ranges, "neighbors"), planes_ (context, ranges, "planes")
@@ -207,7 +207,6 @@ public:
   Slices& planes () { return planes_; }
 
 private:
-  const BlockRanges& ranges_;
   bool are_renewed_;
   std::size_t width_;
   Slices found_, planes_;

@@ -12,6 +12,7 @@ using Json = nlohmann::ordered_json;
 
 // As those of nlohmann::json, which have no fixed order: with the members by their names. The names
 // of the parameters are those that its macros expect.
+// NOLINTBEGIN(readability-identifier-naming)
 
 static void
 to_json (Json& nlohmann_json_j, const Statistics& nlohmann_json_t)
@@ -75,6 +76,8 @@ to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
       has_more_self_intersections, self_intersections_at, largest_area_share, longest_edge,
       longest_edge_at, loops))
 }
+
+// NOLINTEND(readability-identifier-naming)
 
 namespace {
 Json
