@@ -56,6 +56,8 @@ public:
   /// \param statistics receives the times; must outlive the monitor
   RunMonitor (Callbacks callbacks, Statistics& statistics);
   ~RunMonitor () { stopClock (); }
+  RunMonitor (const RunMonitor&) = delete; // a copy would count the time twice
+  RunMonitor& operator= (const RunMonitor&) = delete;
 
   /// Sets the method that makes the mesh, DISC or SURFACE (the default).
   void setMethod (Topology method) { is_disc_ = method == Topology::DISC; }

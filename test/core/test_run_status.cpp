@@ -244,8 +244,8 @@ isCancelledOnceWithin (Stage stage, const Positions& points, Options options)
   return report.status == RunStatus::CANCELLED && running == stage;
 }
 
-// After a callback that seems slow, polls rest for a while. On a busy machine this can be any: tries
-// again.
+// After a slow callback, the next poll waits. On a busy machine any callback may seem slow, so that
+// one miss proves nothing.
 bool
 isCancelledWithin (Stage stage, const Positions& points, const Options& options)
 {
