@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,9 @@
 namespace pcl::floater {
 namespace {
 using Edge = std::pair<Index, Index>;
+
+// Cosine between normals of triangles that lie on one another: 150 degrees.
+constexpr double TURNED = -0.87;
 
 Edge
 edgeOf (Index p, Index q)
@@ -50,6 +54,8 @@ public:
     if (rest.empty ())
       return false;
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
+    if (loop.points.size () >= limits_.least_lid && liesOnMesh (triangles, loop))
+      return false;
     for (const Triangle& t : triangles)
       for (std::size_t i = 0; i < 3; ++i)
         new_edges_.insert (edgeOf (t[i], t[(i + 1) % 3]));
@@ -69,6 +75,31 @@ private:
     };
     const Triangle& t = mesh_.triangles[mesh_.triangle_of[loop.points.front ()]];
     return loop.points.size () == 3 && std::all_of (t.begin (), t.end (), isInLoop);
+  }
+
+  // Whether a filling turns back onto the triangles beside the loop.
+  bool liesOnMesh (const std::vector<Triangle>& filling, const BoundaryLoop& loop) const
+  {
+    std::map<Edge, Eigen::Vector3d> beside; // normals, by the edges of the filling
+    std::vector<Index> fan;
+    for (std::size_t i = 0, m = loop.points.size (); i < m; ++i) {
+      mesh_.fan (loop.points[i], fan);
+      beside[{loop.points[i + 1 < m ? i + 1 : 0], loop.points[i]}] =
+          normalOf (mesh_.triangles[fan.front ()]);
+    }
+    double turned = 0.0;
+    for (const Triangle& t : filling)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto found = beside.find ({t[i], t[(i + 1) % 3]});
+        if (found != beside.end () && found->second.dot (normalOf (t)) < TURNED)
+          turned += (positions_[t[i]] - positions_[t[(i + 1) % 3]]).norm ();
+      }
+    return turned > limits_.lid_share * loop.length;
+  }
+
+  Eigen::Vector3d normalOf (const Triangle& t) const
+  {
+    return areaVector (positions_[t[0]], positions_[t[1]], positions_[t[2]]).normalized ();
   }
 
   double fillCost (Index p, Index q, Index r) const

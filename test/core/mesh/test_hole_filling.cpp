@@ -115,6 +115,16 @@ TEST (HoleFilling, LoopsThatAreKeptOpenStay)
   samples::expectSame (ring.mesh, before);
 }
 
+TEST (HoleFilling, NoLidLiesOnAFlatSurface)
+{
+  Ring ring (40);
+  ring.loops[1].keep_open = true;
+  const TriangleMesh before = ring.mesh;
+  EXPECT_EQ (ring.fill (), 0U);
+  EXPECT_TRUE (ring.loops[0].keep_open);
+  samples::expectSame (ring.mesh, before);
+}
+
 // Fills a loop of the first points of a mesh, or keeps it open; returns its triangles.
 std::vector<Triangle>
 filled (const std::vector<Triangle>& triangles, std::size_t loop, bool can_be_filled)
