@@ -61,8 +61,11 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
           remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
                        *finish.crossing, settings.limits.remaking, run)
               .points;
-    if (finish.remade_points > 0)
+    if (finish.remade_points > 0) {
+      if (flipFolds (mesh, positions, *finish.crossing, run) > 0)
+        finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
       finish.folds = findFolds (mesh, positions, run).size ();
+    }
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;

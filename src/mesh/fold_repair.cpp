@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "mesh/crossing_table.h"
 #include "mesh/vertex_mover.h"
 
 #include <algorithm>
@@ -267,6 +268,73 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
       if (((sides[t] >> side) & 1U) != 0)
         folds.push_back ({t, side});
   return folds;
+}
+
+std::size_t
+flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           const std::vector<CrossingPair>& crossing, const RunContext& run)
+{
+  constexpr double OF_FOLD = 10.0; // more than the bends of five edges
+  constexpr double NEEDLE = 1e-3;  // doubled area over the sum of the squared edges
+  constexpr double IMPROVES = 1e-6;
+  CrossingTable table (mesh, positions, crossing, run);
+  // How far the surface is bent beyond a right angle at an edge, and whether that is a fold.
+  const auto bendAt = [&] (Index t, std::uint8_t side) {
+    const Index u = mesh.neighbors[t][side];
+    if (u == NONE)
+      return 0.0;
+    const Eigen::Vector3d one = areaVectorOf (mesh.triangles[t], positions);
+    const Eigen::Vector3d other = areaVectorOf (mesh.triangles[u], positions);
+    return std::max (0.0, -one.normalized ().dot (other.normalized ())) +
+           (isFold (one, other) ? OF_FOLD : 0.0);
+  };
+  const auto isNeedle = [&] (Index t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return areaVectorOf (mesh.triangles[t], positions).norm () <
+           NEEDLE * ((positions[a] - positions[b]).squaredNorm () +
+                     (positions[b] - positions[c]).squaredNorm () +
+                     (positions[c] - positions[a]).squaredNorm ());
+  };
+  // Of two neighbouring triangles, if flipping the edge between them lowers the sum of bends.
+  const auto flip = [&] (MeshEdge e) {
+    const MeshEdge mate = mesh.mate (e);
+    if (mate.triangle == NONE || mesh.hasEdge (mesh.corner (e), mesh.corner (mate)))
+      return false;
+    const Index t = std::min (e.triangle, mate.triangle), u = std::max (e.triangle, mate.triangle);
+    const auto bends = [&] {
+      double sum = 0.0;
+      for (std::uint8_t side = 0; side < 3; ++side)
+        sum += bendAt (t, side) + (mesh.neighbors[u][side] == t ? 0.0 : bendAt (u, side));
+      return sum;
+    };
+    const double before = bends ();
+    mesh.recordChanges ();
+    mesh.flip (e);
+    if (bends () < before - IMPROVES && !isNeedle (t) && !isNeedle (u) &&
+        table.tryChange ({t, u}, 1) <= 0) {
+      table.accept ({t, u});
+      return true;
+    }
+    mesh.undo (0);
+    table.reject ({t, u});
+    return false;
+  };
+  std::size_t flips = 0;
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (const auto [t, side] : findFolds (mesh, positions, run)) {
+      run.poll ();
+      const Index u = mesh.neighbors[t][side];
+      for (std::uint8_t i = 0; i < 6 && bendAt (t, side) >= OF_FOLD; ++i)
+        if (flip ({i < 3 ? t : u, static_cast<std::uint8_t> (i % 3)})) {
+          ++flips;
+          has_changed = true;
+          break;
+        }
+    }
+  }
+  mesh.recordChanges (false);
+  return flips;
 }
 
 std::size_t

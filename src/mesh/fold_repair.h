@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/order_statistics.h"
+#include "mesh/self_intersections.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
@@ -48,6 +49,14 @@ struct RepairLimits
 std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
            const RunContext& run);
+
+/// Flips folded edges, and edges beside them, as long as each flip leaves fewer folds and no
+/// crossing pair more. O(n) for the table of crossing pairs.
+/// \param crossing all pairs of the mesh
+/// \return number of flips
+std::size_t
+flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           const std::vector<CrossingPair>& crossing, const RunContext& run);
 
 /// Moves vertices that are in the wrong triangles, for example where the parameterization mixed up
 /// their order or where they were connected to another sheet. No single flip lowers the cost there.

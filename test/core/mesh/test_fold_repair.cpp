@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vertices taken out and put back elsewhere: undone changes, moves, kicks.
+// Vertices taken out and put back elsewhere: undone changes, moves, kicks; flips at folds.
 #include "mesh/fold_repair.h"
 
 #include "mesh/known_meshes.h"
@@ -204,6 +204,26 @@ TEST (FoldRepair, KicksRemoveFoldsThatNoSingleMoveRemoves)
 }
 
 // Where every point is in the wrong triangles, the work is limited, and each part of it by itself.
+TEST (FoldRepair, AFoldIsFlippedUnlessThatMakesTrianglesCross)
+{
+  // A steep roof; flipped, it is a bent ribbon below. A third triangle stands under the roof.
+  Positions positions{{-9, 0, 0}, {9, 0, 0},       {0, -1, -3},     {0, 1, -3},
+                      {0, 0, 9},  {0.1, 0.1, 9.5}, {-0.1, 0.1, 9.5}};
+  const std::vector<Triangle> roof{{0, 2, 1}, {0, 1, 3}, {4, 5, 6}};
+  for (const bool is_in_the_way : {false, true}) {
+    if (is_in_the_way)
+      for (Index p = 4; p < 7; ++p)
+        positions[p].z () = 7.0 - positions[p].z () * 1.1;
+    TriangleMesh mesh = samples::connected (roof, positions.size ());
+    ASSERT_TRUE (findSelfIntersections (roof, positions, 1).empty ());
+    ASSERT_EQ (findFolds (mesh, positions, 1).size (), 1U);
+    EXPECT_EQ (flipFolds (mesh, positions, {}, 1), is_in_the_way ? 0U : 1U);
+    EXPECT_EQ (findFolds (mesh, positions, 1).size (), is_in_the_way ? 1U : 0U);
+    EXPECT_EQ (mesh.triangles == roof, is_in_the_way);
+    expectConsistent (mesh);
+  }
+}
+
 TEST (FoldRepair, EndsWhenItHasAskedForAllItsCosts)
 {
   const auto repair = [] (std::size_t of_moves, std::size_t of_kicks) {
