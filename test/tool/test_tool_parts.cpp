@@ -24,7 +24,7 @@ TEST (MappedCloud, BinaryFieldsStayInTheFileWhoseChangesAreNoticed)
   EXPECT_EQ (x.asDouble (1), 3.0039215087890625);
   const Cloud cloud = readCloud (path);
   const std::vector<Eigen::Vector3d> positions = cloud.positions ();
-  cloud.file.giveBack ();
+  giveBackMappedFiles ();
   EXPECT_EQ (cloud.positions (), positions); // are read from the file again
   EXPECT_TRUE (isInMappedFile (cloud.fields[0].first.get ()));
   EXPECT_FALSE (cloud.file.hasChanged ());

@@ -2,28 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "job.h"
 
-#include "atomic_file.h"
-#include "format.h"
 #include "input/input.h"
 #include "mesh_output.h"
-#include "mesh_writer.h"
 #include "options/check_options.h"
-#include "options/option_rows.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "report/report_cloud.h"
 #include "report_json.h"
-#include "run_report.h"
 #include "stored_cloud.h"
-#include "tiles.h"
 
 #include <nlohmann/json.hpp>
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 
 namespace pcl::floater {
@@ -224,7 +216,6 @@ planStep (const Job& job, FolderStore& store)
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
-  store.finish ();
   writeFile (store.path (MANIFEST), manifestText (plan),
              true); // last: with it, the step is finished
   return EXIT_OK;
@@ -272,10 +263,8 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   ArrayWriter writer;
   writer.add ("triangles", result.triangles);
   store.put (TRIANGLES, writer, plan.id);
-  if (job.frees_disk) {
-    store.finish (); // the mesh is on the disk before that of which it was made goes
+  if (job.frees_disk)
     forBlockFiles (plan, [&store] (const std::string& name) { store.remove (name); });
-  }
   return EXIT_OK;
 }
 

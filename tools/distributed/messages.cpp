@@ -5,8 +5,6 @@
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <exception>
 #include <thread>
@@ -124,7 +122,7 @@ Dealer::serve ()
   patience_ = {};
   const Message message = processes_.receive (*from);
   if (message.topic == Topic::FAIL)
-    throw RemoteFailure (static_cast<int> (message.number), message.text);
+    throw ToolError (static_cast<int> (message.number), message.text);
   if (message.topic == Topic::IDLE)
     idle_.insert (*from);
   else if (message.topic == Topic::READ)

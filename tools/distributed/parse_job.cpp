@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line.
-#include "format.h"
 #include "job.h"
 #include "option_table.h"
 #include "options/check_options.h"
-#include "options/option_rows.h"
 
 #include <CLI/CLI.hpp>
 

@@ -3,7 +3,6 @@
 // The manifest of a work folder: what is reconstructed, how, and in which blocks.
 #pragma once
 
-#include "cloud_reader.h"
 #include "run_report.h"
 
 #include <array>

@@ -8,7 +8,6 @@
 #include <xxhash.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace pcl::floater {
 // A head, a table of the arrays, and the arrays, in pieces with a checksum behind each. Numbers are
@@ -241,28 +240,8 @@ FolderStore::put (const std::string& name, const std::function<void (const TakeB
 {
   AtomicFile file (path (name), true);
   emit ([&file] (const char* bytes, std::size_t count) { file.write (bytes, count); });
-  file.close (false);
+  file.close ();
   file.publish ();
-  const std::lock_guard<std::mutex> lock (mutex_);
-  if (syncing_.valid ())
-    syncing_.get ();
-  syncing_ = std::async (std::launch::async, [this, name] {
-    try {
-      syncFile (path (name));
-    }
-    catch (const WriteError&) {
-      remove (name);
-      throw;
-    }
-  });
-}
-
-void
-FolderStore::finish ()
-{
-  const std::lock_guard<std::mutex> lock (mutex_);
-  if (syncing_.valid ())
-    syncing_.get ();
 }
 
 void

@@ -7,7 +7,6 @@
 #include "core/csr_lists.h"
 #include "core/order_statistics.h"
 #include "points/point_block.h"
-#include "store.h"
 
 #include <algorithm>
 #include <map>
@@ -178,18 +177,16 @@ class StoredNeighbors
 public:
   StoredNeighbors (const StepContext& context, const std::vector<Index>& outliers,
                    const BlockRanges& ranges)
-      : are_renewed_ (!outliers.empty ()),
-        width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
+      : width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
                                        ranges.points () - 1)),
-        found_ (context, ranges, "neighbors"), planes_ (context, ranges, "planes")
+        found_ (context, ranges, outliers.empty () ? "neighbors" : "planes"),
+        planes_ (context, ranges, "planes")
   {
   }
 
   // Without those beside lines.
   CsrLists nearest (const std::vector<Index>& points)
   {
-    if (are_renewed_)
-      return planes_.gatherLists ("renewed", points);
     requireListed (points.size () * width_);
     CsrLists lists;
     lists.ids = found_.gather<Index> ("ids", points, width_);
@@ -207,7 +204,6 @@ public:
   Slices& planes () { return planes_; }
 
 private:
-  bool are_renewed_;
   std::size_t width_;
   Slices found_, planes_;
 };

@@ -5,11 +5,9 @@
 #include "random_stream.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -274,24 +272,6 @@ ringRotation (std::size_t n)
 }
 
 } // namespace
-
-const std::vector<SurfaceKind>&
-surfaceKinds ()
-{
-  static const std::vector<SurfaceKind> kinds{SurfaceKind::HEIGHT_FIELD, SurfaceKind::HEMISPHERE,
-                                              SurfaceKind::FINGER,       SurfaceKind::FOLDED_SHEET,
-                                              SurfaceKind::CUT_OUT,      SurfaceKind::SPHERE,
-                                              SurfaceKind::TORUS};
-  return kinds;
-}
-
-const char*
-surfaceName (SurfaceKind kind)
-{
-  constexpr std::array<const char*, 7> NAMES{"height-field", "hemisphere", "finger", "folded-sheet",
-                                             "cut-out",      "sphere",     "torus"};
-  return NAMES[static_cast<std::size_t> (kind)];
-}
 
 int
 boundaryLoops (const SurfaceSpec& spec)

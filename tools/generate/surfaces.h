@@ -5,9 +5,11 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -41,13 +43,15 @@ struct SurfaceSpec
 /// Fewest points of a surface.
 constexpr std::size_t MIN_SURFACE_POINTS = 50;
 
-/// Name of a kind, as on the command line ("height-field").
-const char*
-surfaceName (SurfaceKind kind);
-
-/// All kinds of surface.
-const std::vector<SurfaceKind>&
-surfaceKinds ();
+/// All kinds of surface, with their names on the command line.
+constexpr std::array<std::pair<const char*, SurfaceKind>, 7> SURFACES{
+    {{"height-field", SurfaceKind::HEIGHT_FIELD},
+     {"hemisphere", SurfaceKind::HEMISPHERE},
+     {"finger", SurfaceKind::FINGER},
+     {"folded-sheet", SurfaceKind::FOLDED_SHEET},
+     {"cut-out", SurfaceKind::CUT_OUT},
+     {"sphere", SurfaceKind::SPHERE},
+     {"torus", SurfaceKind::TORUS}}};
 
 /// Number of boundary loops: 0 if the surface is closed, 1 for a disc, more for the cut-out sheet.
 int

@@ -3,7 +3,6 @@
 // A point cloud with all fields of its file.
 #pragma once
 
-#include "byte_order.h"
 #include "file_bytes.h"
 
 #include <Eigen/Core>
@@ -24,9 +23,8 @@
 
 namespace pcl::floater {
 /// A file cannot be used as input. The message names the cause, not the file.
-class ReadError : public std::runtime_error
+struct ReadError : std::runtime_error
 {
-public:
   using std::runtime_error::runtime_error;
 };
 
@@ -328,13 +326,23 @@ leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows);
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
 
+/// Adds fields like addColumns, in place of those that have their names.
+template <typename Values>
+void
+replaceColumns (std::initializer_list<const char*> names, ScalarType type, Values values,
+                std::vector<Field>& fields)
+{
+  const auto isNamed = [&names] (const Field& field) {
+    return std::find (names.begin (), names.end (), field.name) != names.end ();
+  };
+  fields.erase (std::remove_if (fields.begin (), fields.end (), isNamed), fields.end ());
+  addColumns (names, type, std::move (values), fields);
+}
+
 /// A cloud of some rows of another one, in any order, each as often as it is named; all of them are
 /// kept. Coordinates, shift and all fields are copied. O(rows).
-/// \param added fields of one value that come after those of the cloud; setValues gives them their
-/// values. A field of the cloud that has the name of one of them is left out
 Cloud
-copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows,
-          const std::vector<Field>& added);
+copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows);
 
 /// Sets values of a field of which allocateRows has made the rows, from row `first` on.
 /// \tparam T the C++ type of the field

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace pcl::floater {
 /// A letter of ASCII in lower case.
@@ -23,6 +25,18 @@ lowerExtension (const std::filesystem::path& path)
   std::string extension = path.extension ().string ();
   std::transform (extension.begin (), extension.end (), extension.begin (), lowerCase);
   return extension;
+}
+
+/// The value of the row that has the extension of a file as its name; a default one if none has.
+template <typename Format, std::size_t N>
+Format
+formatOf (const std::filesystem::path& path,
+          const std::array<std::pair<const char*, Format>, N>& formats)
+{
+  for (const auto& [name, format] : formats)
+    if (lowerExtension (path) == "." + std::string (name))
+      return format;
+  return {};
 }
 
 /// Whether "-" stands in place of a file: for the standard input, or the standard output.

@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
-#include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace pcl::floater {
 namespace {

@@ -1,18 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "byte_order.h"
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
 #ifdef PCL_FLOATER_HAS_LZF
 #include <lzf.h>
 #endif
 
-#include <algorithm>
 #include <limits>
-#include <optional>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

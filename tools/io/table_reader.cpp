@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Text with one point in each line.
 #include "cloud_reader.h"
-#include "format.h"
 #include "table_head.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace pcl::floater {
 namespace {

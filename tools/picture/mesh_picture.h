@@ -3,7 +3,6 @@
 // A picture of a mesh and of its parameterization, side by side.
 #pragma once
 
-#include "cloud.h"
 #include "mesh_texture.h"
 
 #include <filesystem>

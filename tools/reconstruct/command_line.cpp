@@ -2,24 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_line.h"
 
-#include "atomic_file.h"
-#include "cloud.h"
-#include "cloud_reader.h"
-#include "format.h"
 #include "mesh_output.h"
-#include "mesh_writer.h"
 #include "option_table.h"
 #include "options/check_options.h"
-#include "options/option_rows.h"
 #include "scratch_arrays.h"
-#include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <new>
-#include <utility>
 
 namespace pcl::floater {
 int
@@ -35,9 +26,9 @@ describeException (const char* if_no_memory, std::string& message)
   try {
     throw;
   }
-  catch (const UsageError& error) {
-    message = std::string (error.what ()) + "\nTry --help.";
-    return EXIT_USAGE;
+  catch (const ToolError& error) {
+    message = std::string (error.what ()) + (error.code == EXIT_USAGE ? "\nTry --help." : "");
+    return error.code;
   }
   catch (const ReadError& error) {
     message = error.what ();

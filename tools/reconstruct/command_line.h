@@ -28,14 +28,25 @@ enum ExitCode
   EXIT_RECONSTRUCTION = 3,
   EXIT_OUTPUT = 4,
   EXIT_INTERNAL = 5,
-  EXIT_WARNINGS = 6
+  EXIT_WARNINGS = 6,
+  EXIT_WORK = 7 ///< a file of the work folder of pcl_floater_distributed cannot be used
+};
+
+/// A failure, and the exit code for it.
+struct ToolError : std::runtime_error
+{
+  ToolError (int exit_code, const std::string& message)
+      : std::runtime_error (message), code (exit_code)
+  {
+  }
+
+  int code;
 };
 
 /// The command line is wrong, or asks for something impossible.
-class UsageError : public std::runtime_error
+struct UsageError : ToolError
 {
-public:
-  using std::runtime_error::runtime_error;
+  explicit UsageError (const std::string& message) : ToolError (EXIT_USAGE, message) {}
 };
 
 /// Prints "program: message" to standard error.

@@ -6,12 +6,9 @@
 #include "html_template.h"
 #include "report/findings.h"
 
-#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
 namespace pcl::floater {
 namespace {
@@ -20,21 +17,6 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr std::size_t MOST_SHOWN_POINTS = 50'000; // of each kind
 constexpr std::size_t MOST_LISTED_LOOPS = 20;
-
-/// What the page says first.
-Json
-headlineJson (const Report& report, const RunFigures& run)
-{
-  if (report.status != RunStatus::SUCCESS || run.is_refused)
-    return {{"level", "failed"}, {"word", "no mesh"}, {"text", report.message}};
-  const Verdict& verdict = report.verdict;
-  return {{"level", verdict.value == Quality::GOOD     ? "good"
-                    : verdict.value == Quality::USABLE ? "doubts"
-                                                       : "flaws"},
-          {"word", qualityName (verdict.value)},
-          {"text", verdict.cause.empty () ? "Hardly a flaw in the mesh"
-                                          : verdict.cause + ". What helps: " + verdict.remedy}};
-}
 
 /// Counts in bins of equal width, of the values or of their logarithms. Values beyond the ends are
 /// in the first and the last bin.
@@ -60,17 +42,14 @@ histogramJson (std::vector<float> values, double unit, bool is_log)
           {"median", at (0.5)}, {"quantile_90", at (0.9)}, {"largest", at (1.0)}};
 }
 
+/// Numbers of 32 bits, little endian, in base64.
 template <typename Number>
-void
-appendNumber (Number number, std::string& bytes)
-{
-  copyNumber<Number> (&number, &number, ByteOrder::LITTLE);
-  bytes.append (reinterpret_cast<const char*> (&number), sizeof number);
-}
-
 std::string
-base64 (const std::string& bytes)
+base64 (const std::vector<Number>& numbers)
 {
+  std::string bytes (numbers.size () * sizeof (Number), '\0');
+  for (std::size_t i = 0; i < numbers.size (); ++i)
+    copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i], ByteOrder::LITTLE);
   constexpr const char* DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size (); i += 3) {
@@ -82,34 +61,6 @@ base64 (const std::string& bytes)
   }
   return text;
 }
-
-/// How positions are written: as steps of 16 bits within a box, if the spacing is many of these.
-struct Quantizer
-{
-  Quantizer (const Box& box, double spacing) : origin (box.min ())
-  {
-    constexpr double STEPS = 65535.0, LEAST = 16.0;
-    step = box.sizes ().maxCoeff () / STEPS;
-    is_fine = spacing > 0.0 && spacing < LEAST * step;
-    if (is_fine || !(step > 0.0))
-      step = 1.0;
-  }
-
-  void append (const Eigen::Vector3d& position, std::string& bytes) const
-  {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double value = (position[axis] - origin[axis]) / step;
-      if (is_fine)
-        appendNumber (static_cast<float> (value), bytes);
-      else
-        appendNumber (static_cast<std::uint16_t> (std::lround (value)), bytes);
-    }
-  }
-
-  Eigen::Vector3d origin;
-  double step = 1.0;
-  bool is_fine = false;
-};
 
 /// Points that are drawn as dots.
 struct Dots
@@ -166,40 +117,33 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
                           dots.positions.end ());
     box.extend (boxAround (dots.positions));
   }
-  const Quantizer quantizer (box, drawing.median_spacing);
-  const auto written = [&quantizer] (const std::vector<Eigen::Vector3d>& positions) {
-    std::string bytes;
+  const double size = box.sizes ().maxCoeff () > 0.0 ? box.sizes ().maxCoeff () : 1.0;
+  const auto written = [&] (const std::vector<Eigen::Vector3d>& positions) {
+    std::vector<float> coordinates;
     for (const Eigen::Vector3d& position : positions)
-      quantizer.append (position, bytes);
-    return base64 (bytes);
+      for (const double coordinate : (position - box.center ()) / size)
+        coordinates.push_back (static_cast<float> (coordinate));
+    return base64 (coordinates);
   };
-  const bool are_short = drawing.positions.size () <= 1U << 16U;
-  std::string corners;
+  std::vector<Index> corners;
   for (const Triangle& triangle : drawing.triangles)
-    for (const Index p : triangle)
-      are_short ? appendNumber (static_cast<std::uint16_t> (p), corners)
-                : appendNumber (p, corners);
+    corners.insert (corners.end (), triangle.begin (), triangle.end ());
   Json flaws = Json::array (), dots_json = Json::array ();
-  for (const Flaw& flaw : drawing.flaws) {
-    std::string numbers;
-    for (const Index t : flaw.triangles)
-      appendNumber (t, numbers);
-    flaws.push_back (
-        {{"name", flaw.name}, {"count", flaw.triangles.size ()}, {"triangles", base64 (numbers)}});
-  }
+  for (const Flaw& flaw : drawing.flaws)
+    flaws.push_back ({{"name", flaw.name},
+                      {"count", flaw.triangles.size ()},
+                      {"triangles", base64 (flaw.triangles)}});
   for (const Dots& dots : all_dots)
     dots_json.push_back ({{"name", dots.name},
                           {"count", dots.count},
                           {"shown", dots.positions.size ()},
                           {"positions", written (dots.positions)}});
-  const Eigen::Vector3d origin = drawing.centre + drawing.unit * quantizer.origin;
+  const Eigen::Vector3d origin = drawing.centre + drawing.unit * box.center ();
   return {{"triangles", triangles},
           {"shown", drawing.triangles.size ()},
           {"all_flaws", drawing.has_all_flaws},
           {"origin", {origin.x (), origin.y (), origin.z ()}},
-          {"step", drawing.unit * quantizer.step},
-          {"floats", quantizer.is_fine},
-          {"short", are_short},
+          {"unit", drawing.unit * size},
           {"spacing", drawing.unit * drawing.median_spacing},
           {"positions", written (drawing.positions)},
           {"corners", base64 (corners)},
@@ -235,14 +179,9 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
   Json without_lists = reportJson (line, report, run);
   for (const char* list : {"loop", "unused", "outliers", "scatter", "non_finite", "duplicates"})
     without_lists[list] = without_lists[list].size ();
-  std::unordered_set<std::string> told;
-  Json sentences = Json::array (), others = Json::array ();
+  Json sentences = Json::array ();
   for (const Finding& finding : report.findings)
-    sentences.push_back (*told.insert (sentenceOf (finding)).first);
-  for (const std::string& warning : report.warnings)
-    if (told.count (warning) == 0)
-      others.push_back (warning);
-
+    sentences.push_back (sentenceOf (finding));
   const Drawing drawing = makeDrawing (line, cloud, result);
   const auto dotsAt = [&] (const char* name, const std::vector<std::uint32_t>& points) {
     return takeDots (name, points.size (), [&] (std::size_t i) -> Eigen::Vector3d {
@@ -257,10 +196,8 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
   dots.push_back (dotsAt ("outliers", report.outliers));
   dots.push_back (dotsAt ("unused", report.unused));
 
-  const Json data = {{"headline", headlineJson (report, run)},
-                     {"report", std::move (without_lists)},
+  const Json data = {{"report", std::move (without_lists)},
                      {"sentences", std::move (sentences)},
-                     {"other_warnings", std::move (others)},
                      {"places", placesJson (report, cloud)},
                      {"histograms",
                       {{"spacing", histogramJson (drawing.spacing, drawing.unit, true)},

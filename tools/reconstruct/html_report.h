@@ -3,8 +3,6 @@
 // The report of the tool on a run, as a page to look at, and the mesh as that draws it.
 #pragma once
 
-#include "cloud.h"
-#include "command_line.h"
 #include "core/types.h"
 #include "run_report.h"
 
@@ -19,7 +17,7 @@ namespace pcl::floater {
 /// findings and uncertain decisions with their places, and the mesh, drawn by WebGL. All that
 /// depends on the run is in one JSON text, which holds the report of reportJson () without its lists
 /// of points. Meshes of more than CommandLine::shown_triangles are thinned, but for triangles with
-/// flaws. O(n log n); takes 200 bytes per point, and the text up to 20 MB.
+/// flaws. O(n log n); takes 200 bytes per point, and the text up to 24 MB.
 /// \param cloud  the cloud, from which points without finite coordinates may have been removed
 /// \param result its triangles are indices into the cloud; none: the points are shown
 std::string

@@ -2,22 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
-#include "cloud_reader.h"
-#include "command_line.h"
-#include "format.h"
 #include "heap.h"
 #include "html_report.h"
 #include "mesh_output.h"
-#include "mesh_writer.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "remaining_time.h"
 #include "report_json.h"
-#include "run_report.h"
-#include "scratch_arrays.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -29,25 +22,6 @@
 
 namespace pcl::floater {
 namespace {
-/// What a stage does, for people.
-const char*
-stageWords (Stage stage)
-{
-  constexpr std::array<const char*, static_cast<std::size_t> (Stage::COUNT)> WORDS{
-      "sorting points",
-      "searching neighbours",
-      "fitting planes",
-      "connecting points",
-      "finding the boundary",
-      "weighting neighbours",
-      "solving the linear system",
-      "triangulating",
-      "filling holes",
-      "repairing the mesh",
-      "checking the mesh"};
-  return WORDS[static_cast<std::size_t> (stage)];
-}
-
 /// Shows the current step on the standard error stream if that is a terminal that can erase a line.
 /// The line is erased at the end.
 class Progress
@@ -98,7 +72,7 @@ reconstructInput (Input input, Options options, Progress& progress)
                                 << 19U; // memory is worth more than time from here on
   const bool is_large = input.positions.size () > LARGE;
   options.stage_callback = [&name, is_large] (Stage stage) {
-    name = stageWords (stage);
+    name = stageName (stage);
     if (is_large)
       giveFreedBack ();
   };

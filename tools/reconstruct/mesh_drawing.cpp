@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "local/planes.h"
+#include "mesh/check.h"
 #include "mesh/fold_repair.h"
 #include "mesh/self_intersections.h"
 #include "points/neighbors.h"
@@ -69,69 +70,39 @@ heights (const Drawing& drawing, int threads)
   return result;
 }
 
-/// How often a run has found something.
-std::size_t
-timesFound (const Report& report, FindingId id)
-{
-  for (const Finding& finding : report.findings)
-    if (finding.id == id)
-      return static_cast<std::size_t> (finding.numbers.at (0));
-  return 0;
-}
-
-/// The flaws that the report counts. It has places of some only, so they are found again; of long
-/// edges and of triangles without area, the worst ones.
+/// The flaws of which the report has some places only, by the limits of its examination.
 std::vector<Flaw>
-findFlaws (const TriangleMesh& mesh, const Drawing& drawing, const Report& report,
+findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
            const RunContext& run)
 {
+  constexpr CheckLimits LIMITS;
   const std::vector<Eigen::Vector3d>& positions = drawing.positions;
-  Flaw crossing{"crossing", {}}, folds{"folded", {}}, flat{"flat", {}}, far{"long", {}};
-  const auto addSides = [&mesh] (MeshEdge edge, Flaw& flaw) {
-    flaw.triangles.insert (flaw.triangles.end (), {edge.triangle, mesh.mate (edge).triangle});
+  const double precision = LIMITS.precision * boxAround (positions).diagonal ().norm ();
+  std::vector<Flaw> flaws{{"crossing", {}}, {"folded", {}}, {"flat", {}}, {"long", {}}};
+  const auto add = [] (Flaw& flaw, const std::vector<Index>& triangles) {
+    flaw.triangles.insert (flaw.triangles.end (), triangles.begin (), triangles.end ());
   };
-  if (report.check.self_intersections > 0)
+  if (has_crossings)
     for (const CrossingPair& pair : findSelfIntersections (mesh.triangles, positions, run))
-      crossing.triangles.insert (crossing.triangles.end (), {pair.first, pair.second});
+      add (flaws[0], {pair.first, pair.second});
   for (const MeshEdge edge : findFolds (mesh, positions, run))
-    addSides (edge, folds);
-
-  using Rated = std::pair<double, MeshEdge>; // the larger, the worse
-  std::vector<Rated> edges, triangles;
-  const std::size_t long_edges = timesFound (report, FindingId::LONG_EDGES);
-  const std::size_t without_area = report.check.degenerate_triangles;
-  constexpr double FAR = 2.0, FLAT = 0.01; // others are none of them for sure
-  for (Index t = 0; t < mesh.triangles.size () && long_edges + without_area > 0; ++t) {
+    add (flaws[1], {edge.triangle, mesh.mate (edge).triangle});
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     double longest = 0.0;
     for (const std::uint8_t side : {0, 1, 2}) {
       const MeshEdge edge{t, side};
       const Index from = mesh.from (edge), to = mesh.to (edge), other = mesh.mate (edge).triangle;
       const double length = (positions[to] - positions[from]).norm ();
-      const double spacing = 0.5 * (drawing.spacing[from] + drawing.spacing[to]);
       longest = std::max (longest, length);
-      if (other != NONE && other > t && length > FAR * spacing)
-        edges.emplace_back (length / spacing, edge);
+      if (other != NONE && other > t &&
+          length > LIMITS.long_edge * 0.5 * (drawing.spacing[from] + drawing.spacing[to]))
+        add (flaws[3], {t, other});
     }
     const double height = areaVector (positions[a], positions[b], positions[c]).norm () / longest;
-    if (!(height >= FLAT * longest))
-      triangles.emplace_back (-height, MeshEdge{t, 0});
+    if (!(height > precision || height > LIMITS.flat_height * longest))
+      add (flaws[2], {t});
   }
-  const auto takeWorst = [] (std::vector<Rated>& rated, std::size_t count, const auto& take) {
-    count = std::min (count, rated.size ());
-    std::partial_sort (rated.begin (), rated.begin () + static_cast<std::ptrdiff_t> (count),
-                       rated.end (), [] (const Rated& a, const Rated& b) {
-                         return a.first != b.first ? a.first > b.first
-                                                   : a.second.triangle < b.second.triangle;
-                       });
-    for (std::size_t i = 0; i < count; ++i)
-      take (rated[i].second);
-  };
-  takeWorst (edges, long_edges, [&] (MeshEdge edge) { addSides (edge, far); });
-  takeWorst (triangles, without_area,
-             [&flat] (MeshEdge edge) { flat.triangles.push_back (edge.triangle); });
-  std::vector<Flaw> flaws{std::move (crossing), std::move (folds), std::move (flat),
-                          std::move (far)};
   for (Flaw& flaw : flaws)
     sortUnique (flaw.triangles);
   return flaws;
@@ -227,7 +198,7 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   TriangleMesh mesh;
   mesh.triangles = drawing.triangles;
   if (mesh.connect (drawing.positions.size (), run))
-    drawing.flaws = findFlaws (mesh, drawing, result.report, run);
+    drawing.flaws = findFlaws (mesh, drawing, result.report.check.self_intersections > 0, run);
   if (drawing.triangles.size () > line.shown_triangles)
     thin (drawing, line.shown_triangles);
   return drawing;

@@ -2,26 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_output.h"
 
-#include "format.h"
-#include "mesh_writer.h"
-
 #include <pcl/surface/floater/vertex_normals.h>
-
-#include <algorithm>
-#include <utility>
 
 namespace pcl::floater {
 void
 replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
 {
   std::vector<Eigen::Vector3f> normals = vertexNormals (cloud.positions (), triangles, threads);
-  cloud.file.giveBack ();
-  const auto isNormal = [] (const Field& field) {
-    return field.name == "nx" || field.name == "ny" || field.name == "nz";
-  };
-  cloud.fields.erase (std::remove_if (cloud.fields.begin (), cloud.fields.end (), isNormal),
-                      cloud.fields.end ());
-  addColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT32, std::move (normals), cloud.fields);
+  giveBackMappedFiles ();
+  replaceColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT32, std::move (normals), cloud.fields);
 }
 
 namespace {

@@ -3,10 +3,7 @@
 // What is written beside the triangles: normals, texture coordinates, the texture and its materials.
 #pragma once
 
-#include "atomic_file.h"
-#include "cloud.h"
 #include "command_line.h"
-#include "mesh_texture.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 #include <pcl/surface/floater/texture_coordinates.h>

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "option_table.h"
 
-#include "command_line.h"
-#include "options/option_rows.h"
 #include "scratch_arrays.h"
-
-#include <algorithm>
-#include <functional>
 
 namespace pcl::floater {
 void

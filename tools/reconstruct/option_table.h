@@ -5,7 +5,6 @@
 
 #include "command_line.h"
 #include "core/problem.h"
-#include "format.h"
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>

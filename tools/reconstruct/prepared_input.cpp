@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prepared_input.h"
 
-#include "mesh_writer.h"
 #include "points/outliers.h"
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,7 +51,7 @@ makeInput (const Cloud& cloud)
       input.cloud_index.push_back (static_cast<std::uint32_t> (row));
     }
   input.positions.resize (input.cloud_index.size ());
-  cloud.file.giveBack ();
+  giveBackMappedFiles ();
   return input;
 }
 
@@ -77,7 +75,7 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       normals[p][axis] =
           static_cast<float> (fields[static_cast<std::size_t> (axis)]->asDouble (cloud.row (p)));
-  cloud.file.giveBack ();
+  giveBackMappedFiles ();
   if (std::none_of (normals.begin (), normals.end (), [] (const Eigen::Vector3f& normal) {
         return normal.allFinite () && !normal.isZero (0.0F);
       }))

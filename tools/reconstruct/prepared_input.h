@@ -3,9 +3,6 @@
 // From a cloud of a file to the input of the core; and from its outcome to an exit code.
 #pragma once
 
-#include "cloud.h"
-#include "command_line.h"
-#include "format.h"
 #include "run_report.h"
 #include "scratch_arrays.h"
 

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
-#include "atomic_file.h"
-#include "format.h"
 #include "report_json.h"
 #include "scratch_arrays.h"
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace pcl::floater {

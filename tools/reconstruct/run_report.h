@@ -3,7 +3,6 @@
 // The report of the tool on a run, as JSON.
 #pragma once
 
-#include "cloud.h"
 #include "command_line.h"
 
 #include <pcl/surface/floater/report.h>

@@ -6,7 +6,6 @@
 #include "scratch_arrays.h"
 
 #include "atomic_file.h"
-#include "file_bytes.h"
 #include "text_scanner.h"
 
 #include <fcntl.h>
