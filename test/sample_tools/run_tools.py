@@ -380,12 +380,12 @@ class Page(PageCase):
                 self.assertEqual(flaw["count"] > 0, report["check"][expected[flaw["name"]]] > 0, flaw["name"])
         dots = {kind["name"]: kind for kind in mesh["dots"]}
         self.assertEqual({name: kind["count"] for name, kind in dots.items()},
-                         {name: len(report[name]) for name in ("scatter", "outliers", "unused")})
+                         {"points": 0, **{name: len(report[name]) for name in ("scatter", "outliers", "unused")}})
         self.assertLess(dots["outliers"]["shown"], dots["outliers"]["count"])  # one is too far away to be shown
 
     def test_a_large_mesh_is_thinned_but_for_its_flaws(self):
         cloud = self.noisy()
-        (whole, _), (some, report) = self.page(cloud), self.page(cloud, "--limit", "page.triangles=2000")
+        (whole, _), (some, report) = self.page(cloud), self.page(cloud, "--page-triangles", "2000")
         mesh = some["mesh"]
         self.assertEqual(mesh["triangles"], report["statistics"]["triangles"])
         self.assertTrue(1000 < mesh["shown"] <= 2000)
@@ -395,7 +395,7 @@ class Page(PageCase):
         triangles = list(zip(*[iter(corners)] * 3))
         self.assertEqual((len(triangles), max(corners)), (mesh["shown"], len(self.numbers(mesh["positions"], "f")) / 3 - 1))
         self.assertTrue(all(len(set(t)) == 3 for t in triangles))
-        few = self.page(cloud, "--limit", "page.triangles=100")[0]["mesh"]  # less than there are flaws
+        few = self.page(cloud, "--page-triangles", "100")[0]["mesh"]  # less than there are flaws
         self.assertEqual((mesh["all_flaws"], few["all_flaws"]), (True, False))
         self.assertTrue(0 < few["shown"] <= 100)
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds whose fields stay in the file, and the time that a run still takes.
 #include "cloud_reader.h"
-#include "remaining_time.h"
 
 #include <gtest/gtest.h>
 

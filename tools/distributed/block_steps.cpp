@@ -40,8 +40,9 @@ neighborsStep (const StepContext& context, std::size_t block)
   if (first == last)
     return put (context, "neighbors", block);
   BlockSearch search (cloud.cutter (), block, context.run, HALO);
-  const CsrLists neighbors = findNearestOfBlock (search, Rows::range (first, last), cloud.points (),
-                                                 context.options.neighbors.k, context.run);
+  const CsrLists neighbors =
+      findNearestOfBlock (search, Rows::range (first, last), cloud.ranges ().points (),
+                          context.options.neighbors.k, context.run);
   ArrayWriter writer;
   writer.add ("ids", neighbors.ids);
   put (context, "neighbors", block, writer);
@@ -91,8 +92,9 @@ planesStep (const StepContext& context, std::size_t block)
   const CsrLists nearest =
       own.outliers.empty ()
           ? StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points)
-          : findNearestOfBlock (search, Rows::range (own.first, own.last), cloud.points (),
-                                context.options.neighbors.k, context.run);
+          : findNearestOfBlock (search, Rows::range (own.first, own.last),
+                                cloud.ranges ().points (), context.options.neighbors.k,
+                                context.run);
   takeIn (points, nearest, cloud, search);
   do {
     const PointBlock& local = search.block ();
@@ -144,7 +146,6 @@ namespace {
 // spacings ahead, and are made again where that leaves the block.
 constexpr double STAR_HALO = 2.0;
 
-// Appends the star of a row to others.
 void
 appendStar (const Stars& from, std::size_t row, Stars& to)
 {
@@ -189,7 +190,7 @@ starsStep (const StepContext& context, std::size_t block)
   const std::vector<float> own_spacing = stored.planes ().gather<float> ("spacing", own);
   const std::vector<float> own_reach = stored.planes ().gather<float> ("beside_reach", own);
   std::vector<Index> centres =
-      areaSampleCentres (cloud.points (), context.limits.view.search.samples);
+      areaSampleCentres (cloud.ranges ().points (), context.limits.view.search.samples);
   centres.erase (std::remove_if (centres.begin (), centres.end (),
                                  [&] (Index p) { return p < first || p >= last; }),
                  centres.end ());

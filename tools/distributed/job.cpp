@@ -3,7 +3,6 @@
 #include "job.h"
 
 #include "input/input.h"
-#include "mesh_output.h"
 #include "options/check_options.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
@@ -13,9 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sys/stat.h>
-
-#include <cerrno>
 #include <cstdio>
 
 namespace pcl::floater {
@@ -26,7 +22,6 @@ constexpr const char* REPORT = "report.json";
 // points: below, more time goes to pages that come back than to all else.
 constexpr double KEPT_BY_PLAN = 9.0;
 
-// Calls visit (name) for the files of all blocks.
 template <typename Visit>
 void
 forBlockFiles (const Plan& plan, Visit&& visit)
@@ -148,13 +143,8 @@ void
 prepareFolders (const Job& job)
 {
   std::error_code error;
-  const std::filesystem::path work =
-      job.work.has_filename () ? job.work : job.work.parent_path (); // "town/"
-  if (work.has_parent_path ())
-    std::filesystem::create_directories (work.parent_path (), error);
-  constexpr mode_t OWN = 0700;
-  if (!error && ::mkdir (work.c_str (), OWN) != 0 && errno != EEXIST)
-    error = std::make_error_code (static_cast<std::errc> (errno));
+  if (std::filesystem::create_directories (job.work, error))
+    std::filesystem::permissions (job.work, std::filesystem::perms::owner_all, error);
   if (error || !std::filesystem::is_directory (job.work))
     throw WriteError ("cannot make the work folder '" + job.work.string () +
                       "': " + (error ? error.message () : "there is a file of that name"));

@@ -106,7 +106,7 @@ void
 RemoteStore::put (const std::string& name, const std::function<void (const TakeBytes&)>& emit)
 {
   Message message{Topic::PUT, 0, 0, name + "\n"};
-  emit ([&message] (const char* bytes, std::size_t count) { message.text.append (bytes, count); });
+  emit ([&message] (std::string_view bytes) { message.text += bytes; });
   processes_.send (0, message);
   processes_.receive (0); // it is on the disk
 }
@@ -158,9 +158,8 @@ Dealer::write (int process, const std::string& file)
   std::exception_ptr error;
   try {
     const std::size_t end = file.find ('\n');
-    folder_.put (file.substr (0, end), [&file, end] (const TakeBytes& take) {
-      take (file.data () + end + 1, file.size () - end - 1);
-    });
+    folder_.put (file.substr (0, end),
+                 [&] (const TakeBytes& take) { take (std::string_view (file).substr (end + 1)); });
   }
   catch (...) {
     error = std::current_exception ();

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line.
 #include "job.h"
 #include "option_table.h"
 #include "options/check_options.h"
@@ -67,8 +66,7 @@ addSteps (CLI::App& app, Job& job)
              "do this step only: " + of_all.substr (2) +
                  "; or for a block: " + of_blocks.substr (2),
              "NAME (all)", group);
-  addNumber (app, "--block", job.block, "block of the step, from 0", group);
-  app.get_option ("--block")->option_text ("N");
+  addNumber (app, "--block", job.block, "block of the step, from 0", group)->option_text ("N");
   app.add_flag ("--print-steps", job.prints_steps,
                 "print the commands of all steps after the plan, and exit")
       ->group (group);
@@ -113,7 +111,6 @@ addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
   addOutputs (app, job.line);
 }
 
-// \throws UsageError, ReadError, WriteError
 void
 takeFiles (const std::vector<std::string>& files, Job& job)
 {

@@ -40,7 +40,7 @@ struct ByteSource
 };
 
 /// Takes the bytes of a file, one piece after the other.
-using TakeBytes = std::function<void (const char* bytes, std::size_t count)>;
+using TakeBytes = std::function<void (std::string_view bytes)>;
 
 /// An array in a file.
 struct ArrayEntry

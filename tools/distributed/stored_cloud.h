@@ -138,7 +138,7 @@ public:
       : file_ (openArrays (context.store, name, context.plan)),
         ranges_ (context.plan, file_.count ("positions")),
         cutter_ (
-            points (), file_.read<Box> ("groups"), context.plan.blocks,
+            ranges_.points (), file_.read<Box> ("groups"), context.plan.blocks,
             [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
               file_.append ("buckets", first, last, buckets);
             },
@@ -149,7 +149,6 @@ public:
   }
 
   ArrayFile& file () { return file_; }
-  std::size_t points () const { return ranges_.points (); }
   const BlockRanges& ranges () const { return ranges_; }
   const BlockCutter& cutter () const { return cutter_; }
 

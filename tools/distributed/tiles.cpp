@@ -31,7 +31,6 @@ tileName (std::size_t tile)
   return "tile." + std::to_string (tile) + ".ply";
 }
 
-// The tile that owns each vertex.
 std::vector<std::uint32_t>
 findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, FolderStore& store,
             const Plan& plan)

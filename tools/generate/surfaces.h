@@ -6,13 +6,41 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace pcl::floater {
+/// Random numbers that are the same with every standard library, unlike its distributions.
+class RandomStream
+{
+public:
+  explicit RandomStream (std::uint64_t seed) : engine_ (seed) {}
+
+  /// Uniformly distributed in [0, 1).
+  double uniform () { return static_cast<double> (engine_ () >> 11) * 0x1.0p-53; }
+
+  /// An integer, uniformly distributed in [0, n); n far below 2^53.
+  std::size_t below (std::size_t n)
+  {
+    return static_cast<std::size_t> (uniform () * static_cast<double> (n));
+  }
+
+  /// Normally distributed with mean 0 and standard deviation 1 (Box and Muller).
+  double normal ()
+  {
+    const double radius = std::sqrt (-2.0 * std::log1p (-uniform ()));
+    return radius * std::cos (2.0 * 3.14159265358979323846 * uniform ());
+  }
+
+private:
+  std::mt19937_64 engine_;
+};
+
 enum class SurfaceKind
 {
   HEIGHT_FIELD, ///< square of rolling terrain, sampled evenly in plan view: a disc
@@ -52,14 +80,6 @@ constexpr std::array<std::pair<const char*, SurfaceKind>, 7> SURFACES{
      {"cut-out", SurfaceKind::CUT_OUT},
      {"sphere", SurfaceKind::SPHERE},
      {"torus", SurfaceKind::TORUS}}};
-
-/// Number of boundary loops: 0 if the surface is closed, 1 for a disc, more for the cut-out sheet.
-int
-boundaryLoops (const SurfaceSpec& spec);
-
-/// Euler characteristic of the surface.
-int
-eulerCharacteristic (const SurfaceSpec& spec);
 
 /// The error in a specification, in one sentence; empty if there is none.
 std::string

@@ -100,7 +100,6 @@ failOn (const std::filesystem::path& path, const std::string& cause)
       cause);
 }
 
-/// The path with all symbolic links resolved.
 std::filesystem::path
 resolve (const std::filesystem::path& path)
 {
@@ -206,21 +205,18 @@ AtomicFile::~AtomicFile ()
 }
 
 void
-AtomicFile::write (const void* bytes, std::size_t size)
+AtomicFile::write (std::string_view bytes)
 {
-  // The address of an array without elements may be null, which memcpy does not allow.
-  if (size == 0)
-    return;
-  if (used_ + size > buffer_.size ())
+  if (bytes.size () > buffer_.size ()) {
     flush ();
-  if (size > buffer_.size ()) {
-    if (const int error = writeAll (descriptor_, {static_cast<const char*> (bytes), size}))
+    if (const int error = writeAll (descriptor_, bytes))
       fail (error);
-    written_ += size;
-    return;
+    written_ += bytes.size ();
   }
-  std::memcpy (buffer_.data () + used_, bytes, size);
-  used_ += size;
+  else {
+    bytes.copy (room (bytes.size ()), bytes.size ());
+    used_ += bytes.size ();
+  }
 }
 
 void

@@ -48,9 +48,7 @@ public:
   AtomicFile (const AtomicFile&) = delete;
   AtomicFile& operator= (const AtomicFile&) = delete;
 
-  void write (const void* bytes, std::size_t size);
-
-  void write (std::string_view text) { write (text.data (), text.size ()); }
+  void write (std::string_view bytes);
 
   /// Appends a number in the byte order of the file.
   template <typename T>

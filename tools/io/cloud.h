@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,34 +43,19 @@ enum class ScalarType
   FLOAT64
 };
 
+/// The C++ types in the order of ScalarType.
+using ScalarTypes = std::tuple<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                               std::uint32_t, std::int64_t, std::uint64_t, float, double>;
+
 /// Calls visitor (T{}) with the C++ type T of `type`, and returns its result.
-template <typename Visitor>
+template <std::size_t First = 0, typename Visitor>
 auto
 visitType (ScalarType type, Visitor&& visitor)
 {
-  switch (type) {
-  case ScalarType::INT8:
-    return visitor (std::int8_t{});
-  case ScalarType::UINT8:
-    return visitor (std::uint8_t{});
-  case ScalarType::INT16:
-    return visitor (std::int16_t{});
-  case ScalarType::UINT16:
-    return visitor (std::uint16_t{});
-  case ScalarType::INT32:
-    return visitor (std::int32_t{});
-  case ScalarType::UINT32:
-    return visitor (std::uint32_t{});
-  case ScalarType::INT64:
-    return visitor (std::int64_t{});
-  case ScalarType::UINT64:
-    return visitor (std::uint64_t{});
-  case ScalarType::FLOAT32:
-    return visitor (float{});
-  case ScalarType::FLOAT64:
-    break;
-  }
-  return visitor (double{});
+  if constexpr (First + 1 < std::tuple_size_v<ScalarTypes>)
+    if (static_cast<std::size_t> (type) != First)
+      return visitType<First + 1> (type, visitor);
+  return visitor (std::tuple_element_t<First, ScalarTypes>{});
 }
 
 inline std::size_t

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <cstdio>
 
 namespace pcl::floater {
 namespace {
@@ -126,8 +125,7 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   for (const auto& [a, b, c] : triangles) {
     const Eigen::Vector3d p = cloud.position (a), q = cloud.position (b), r = cloud.position (c);
     for (const Eigen::Vector3d& vector : {(q - p).cross (r - p).normalized ().eval (), p, q, r})
-      for (const double value : vector)
-        file.writeNumber (static_cast<float> (value), ByteOrder::LITTLE);
+      writeVector (file, vector.cast<float> ());
     file.writeNumber (std::uint16_t{0}, ByteOrder::LITTLE);
   }
 }
@@ -144,9 +142,8 @@ encodeName (const std::string& name)
     if (c > ' ' && c <= '~' && c != '%' && c != '"')
       encoded += c;
     else {
-      std::array<char, 4> code{};
-      std::snprintf (code.data (), code.size (), "%%%02X", static_cast<unsigned char> (c));
-      encoded += code.data ();
+      const auto code = static_cast<unsigned char> (c);
+      encoded += {'%', "0123456789ABCDEF"[code >> 4U], "0123456789ABCDEF"[code & 15U]};
     }
   }
   return encoded;

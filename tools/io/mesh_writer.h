@@ -55,6 +55,14 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
            const Triangles& triangles, MeshFormat format,
            const TextureCoordinates* texture = nullptr);
 
+/// The coordinates, little endian.
+inline void
+writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
+{
+  for (const float coordinate : vector)
+    file.writeNumber (coordinate, ByteOrder::LITTLE);
+}
+
 /// Number of triangles of which 32-bit floats make two corners one: readers may merge those.
 std::size_t
 countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles);

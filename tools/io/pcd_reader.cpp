@@ -15,7 +15,6 @@ const std::string PADDING = "_";
 
 struct PcdHeader
 {
-  // The lines, and what they are together.
   std::vector<std::string> names, types;
   std::vector<std::uint32_t> sizes, counts;
   std::optional<std::size_t> width, height, points_told;

@@ -22,8 +22,6 @@ struct PtxPixels
   std::vector<bool> lack_return;
 };
 
-/// The numbers of the next line.
-/// \throws ReadError if there are fewer
 template <std::size_t N>
 std::array<double, N>
 readLine (TextScanner& scanner)

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text with one point in each line.
 #include "cloud_reader.h"
 #include "table_head.h"
 
@@ -19,7 +18,6 @@ countDigits (std::string_view word)
   return digits;
 }
 
-/// Notes what a value tells of its column.
 void
 note (Column& column, std::string_view word, double value)
 {

@@ -59,13 +59,7 @@ readPictureMesh (const std::filesystem::path& path)
 }
 
 namespace {
-// From where the mesh is seen.
-
-/// Directions of a picture.
-struct View
-{
-  Eigen::Vector3d towards_viewer, up; ///< unit vectors
-};
+using View = std::array<Eigen::Vector3d, 2>; ///< unit vectors: towards the viewer, and up
 
 /// Where points are on a canvas.
 struct Camera
@@ -138,10 +132,11 @@ axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
 Camera
 lookAlong (const View& view)
 {
-  const Eigen::Vector3d right = view.up.cross (view.towards_viewer).normalized ();
+  const auto& [back, up] = view;
+  const Eigen::Vector3d right = up.cross (back).normalized ();
   Camera camera{};
-  camera.axes << right.transpose (), view.towards_viewer.cross (right).normalized ().transpose (),
-      view.towards_viewer.transpose ();
+  camera.axes << right.transpose (), back.cross (right).normalized ().transpose (),
+      back.transpose ();
   return camera;
 }
 
@@ -208,8 +203,6 @@ aimFromViewpoint (const Eigen::Vector3d& viewpoint, const std::vector<Eigen::Vec
   camera.is_perspective = true;
   return camera;
 }
-
-// How it is drawn.
 
 constexpr std::size_t SUPERSAMPLING = 2;        // pixels drawn per pixel, in each direction
 constexpr std::size_t MOST_DRAWN_EDGES = 15000; // triangles of a shaded mesh up to which edges show

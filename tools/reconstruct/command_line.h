@@ -119,11 +119,11 @@ struct CommandLine
     return output_format ? output_format : meshFormatOf (output);
   }
 
-  /// Whether the normals of the input are read to find the front of the mesh.
-  bool usesNormalsForFacing () const
+  /// The file of materials beside an OBJ file with texture coordinates; else empty.
+  std::filesystem::path materials () const
   {
-    return options.facing == Facing::NORMALS ||
-           (options.facing == Facing::AUTO && use_input_normals);
+    return texture_coordinates && meshFormat () == MeshFormat::OBJ ? materialsBeside (output)
+                                                                   : std::filesystem::path ();
   }
 };
 

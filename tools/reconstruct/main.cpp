@@ -4,10 +4,8 @@
 // class, so that coordinates keep their double precision.
 #include "heap.h"
 #include "html_report.h"
-#include "mesh_output.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
-#include "remaining_time.h"
 #include "report_json.h"
 
 #include <algorithm>
@@ -90,16 +88,15 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   std::vector<Eigen::Vector3d> places;
   for (const Eigen::Vector2d& place : result.report.parameters)
     places.emplace_back (place.x (), place.y (), 0.0);
-  Cloud flat;
-  flat.single_precision = precision != Precision::DOUBLE;
-  flat.rows = places.size ();
-  std::vector<Field> axes;
-  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (places), axes);
-  std::move (axes.begin (), axes.end (), flat.coordinates.begin ());
+  const std::size_t points = places.size ();
+  std::vector<Field> fields;
+  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (places), fields);
   const FieldTriple normals = normalFields (cloud);
   for (const Field& field : cloud.fields)
     if (std::find (normals.begin (), normals.end (), &field) == normals.end ())
-      flat.fields.push_back (field);
+      fields.push_back (field);
+  Cloud flat = makeCloud (std::move (fields), points);
+  flat.single_precision = precision != Precision::DOUBLE;
   Triangles triangles;
   std::copy_if (result.triangles.begin (), result.triangles.end (), std::back_inserter (triangles),
                 [&flat] (const auto& triangle) {
@@ -109,6 +106,76 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
                 });
   removeNonFinitePoints (flat, triangles);
   return {std::move (flat), std::move (triangles)};
+}
+
+// The image as the file of materials names it: relative to its own folder, as readers expect it.
+std::string
+imageName (const CommandLine& line)
+{
+  if (line.texture.empty ())
+    return {};
+  const std::filesystem::path folder =
+      std::filesystem::absolute (line.output).parent_path ().lexically_normal ();
+  return std::filesystem::absolute (line.texture)
+      .lexically_normal ()
+      .lexically_proximate (folder)
+      .generic_string ();
+}
+
+void
+checkTextureColours (const CommandLine& line, const Cloud& cloud)
+{
+  if (!line.texture.empty () && !colorFields (cloud)[0])
+    throw UsageError (
+        "--texture: the points of '" + line.input.string () +
+        "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for texture "
+        "coordinates alone");
+}
+
+/// Computes the coordinates that are asked for. If that fails, the result has no mesh any more, and
+/// says why.
+TextureCoordinates
+computeTexture (const CommandLine& line, const Cloud& cloud, Result& result)
+{
+  if (!line.texture_coordinates || result.report.status != RunStatus::SUCCESS)
+    return {};
+  TextureOptions options;
+  options.threads = line.options.threads;
+  options.whole_discs = result.report.topology == Topology::DISC;
+  TextureCoordinates texture =
+      computeTextureCoordinates (cloud.positions (), result.triangles, options);
+  if (texture.status != RunStatus::SUCCESS) {
+    result.report.status = texture.status;
+    result.report.message = "texture coordinates: " + texture.message;
+    result.triangles.clear ();
+  }
+  else if (texture.flipped > 0)
+    result.report.warnings.push_back (
+        counted (texture.flipped, "triangle") + (texture.flipped == 1 ? " is" : " are") +
+        " upside down in the texture: too small beside the mesh for 32 bits");
+  return texture;
+}
+
+/// Writes the file of materials of an OBJ file and the image, under temporary names.
+/// \return what is odd about them, one sentence each
+std::vector<std::string>
+stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
+              const TextureCoordinates& texture, OutputFiles& files)
+{
+  std::vector<std::string> notes;
+  if (const std::filesystem::path materials = line.materials (); !materials.empty ()) {
+    stageFile (materials, materialsText (imageName (line)), files);
+    if ((materials.filename ().string () + imageName (line)).find (' ') != std::string::npos)
+      notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
+                          "which many readers of OBJ files do not take");
+  }
+  if (!line.texture.empty ()) {
+    const std::size_t side = line.texture_size > 0
+                                 ? static_cast<std::size_t> (line.texture_size)
+                                 : imageSideFor (texture.coordinates.size (), texture.area_used);
+    stageFile (line.texture, pngOf (bakeColours (cloud, triangles, texture, side)), files);
+  }
+  return notes;
 }
 
 /// Writes all outputs under temporary names, so that none is visible yet.
@@ -132,13 +199,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     stage (line.parameterization, flat, triangles, meshFormatOf (line.parameterization));
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
-    result.report.warnings.push_back (
-        counted (removed, "point") +
-        (removed == 1
-             ? " without finite coordinates was left out of the output; the vertices after it "
-               "moved up"
-             : " without finite coordinates were left out of the output; the vertices after them "
-               "moved up"));
+    result.report.warnings.push_back (counted (removed, "point") + " without finite coordinates " +
+                                      (removed == 1 ? "was" : "were") +
+                                      " left out of the output; the vertices behind moved up");
   run.vertices = cloud.size ();
   if (line.texture_coordinates) {
     for (std::uint32_t& point : run.texture.points)

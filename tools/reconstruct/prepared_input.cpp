@@ -5,6 +5,7 @@
 #include "points/outliers.h"
 
 #include <Eigen/Geometry>
+#include <pcl/surface/floater/vertex_normals.h>
 
 #include <cmath>
 #include <limits>
@@ -42,15 +43,14 @@ Input
 makeInput (const Cloud& cloud)
 {
   Input input;
-  input.positions = cloud.positions ();
+  input.positions.reserve (cloud.size ());
   input.cloud_size = cloud.size ();
   input.sensor_origin = cloud.sensor_origin;
   for (std::size_t row = 0; row < cloud.size (); ++row)
     if (!cloud.isLeftOut (row)) {
-      input.positions[input.cloud_index.size ()] = input.positions[row];
+      input.positions.push_back (cloud.position (row));
       input.cloud_index.push_back (static_cast<std::uint32_t> (row));
     }
-  input.positions.resize (input.cloud_index.size ());
   giveBackMappedFiles ();
   return input;
 }
@@ -58,7 +58,8 @@ makeInput (const Cloud& cloud)
 void
 takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
 {
-  const bool for_facing = line.usesNormalsForFacing ();
+  const bool for_facing = line.options.facing == Facing::NORMALS ||
+                          (line.options.facing == Facing::AUTO && line.use_input_normals);
   if (line.options.facing == Facing::AUTO && !for_facing)
     input.facing_normals = std::move (cloud.towards_sensors);
   if (!line.use_input_normals && !for_facing)
@@ -214,6 +215,14 @@ writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
                                "into its points as 0: use --precision single or "
                                "another format for PCL");
   return false;
+}
+
+void
+replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
+{
+  std::vector<Eigen::Vector3f> normals = vertexNormals (cloud.positions (), triangles, threads);
+  giveBackMappedFiles ();
+  replaceColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT32, std::move (normals), cloud.fields);
 }
 
 } // namespace pcl::floater

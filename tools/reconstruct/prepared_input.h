@@ -55,6 +55,11 @@ prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures,
 bool
 writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud);
 
+/// Gives the cloud the fields nx, ny and nz of 32-bit floats, with the normals of the vertices of
+/// the mesh (see vertexNormals ()), in place of those that it has. All points must be left.
+void
+replaceNormals (Cloud& cloud, const Triangles& triangles, int threads);
+
 /// The exit code of a run.
 int
 exitCode (const Report& report, const RunFigures& run);

@@ -20,7 +20,6 @@ fileName (const std::filesystem::path& path)
   return path.empty () ? Json () : Json (path.string ());
 }
 
-/// Null if there is no limit.
 Json
 memoryLimitJson (const CommandLine& line)
 {
@@ -31,7 +30,6 @@ memoryLimitJson (const CommandLine& line)
           {"scratch_peak_bytes", scratchUse ().peak}};
 }
 
-/// Null if no texture coordinates were asked for.
 Json
 textureJson (const CommandLine& line, const RunFigures& run)
 {
@@ -223,7 +221,6 @@ printUnsure (std::FILE* to, const Report& report)
   }
 }
 
-/// Prints method, components, genus and boundary loops.
 void
 printShape (std::FILE* to, const Report& report)
 {
