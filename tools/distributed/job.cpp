@@ -164,11 +164,14 @@ int
 planStep (const Job& job, FolderStore& store)
 {
   Plan plan;
-  for (const std::string& argument : job.arguments)
-    if (!isUtf8 (argument))
-      throw UsageError ("'" + argument +
-                        "' is no UTF-8, which the manifest of the work folder is; "
-                        "use other names of files and folders");
+  try {
+    nlohmann::json (job.arguments).dump ();
+  }
+  catch (const nlohmann::json::exception&) {
+    throw UsageError (
+        "an argument is no UTF-8, which the manifest of the work folder is; use other "
+        "names of files and folders");
+  }
   for (const std::filesystem::path& input : job.inputs)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;

@@ -35,7 +35,6 @@ struct Message
   std::string text{};
 };
 
-/// The processes of MPI_COMM_WORLD.
 class Processes
 {
 public:
@@ -50,7 +49,6 @@ public:
 
   void send (int to, const Message& message);
 
-  /// Waits for a message of a process.
   Message receive (int from);
 
   /// The process of which a message is there, if there is one.

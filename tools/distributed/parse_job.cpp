@@ -100,9 +100,8 @@ void
 addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
 {
   app.add_option ("FILES", files,
-                  "point clouds: .pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts; "
-                  "then the mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; with --tiles "
-                  "a folder")
+                  std::string ("point clouds: ") + CLOUD_EXTENSIONS +
+                      "; then the mesh to write: " + MESH_EXTENSIONS + "; with --tiles a folder")
       ->option_text (" ");
   app.add_flag ("--tiles", job.writes_tiles,
                 "write the mesh as a folder of .ply files: one for each file of points, or of a "

@@ -49,7 +49,6 @@ std::uint64_t
 planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
         const std::vector<std::string>& arguments);
 
-/// The text of the manifest.
 std::string
 manifestText (const Plan& plan);
 

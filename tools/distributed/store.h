@@ -42,7 +42,6 @@ struct ByteSource
 /// Takes the bytes of a file, one piece after the other.
 using TakeBytes = std::function<void (std::string_view bytes)>;
 
-/// An array in a file.
 struct ArrayEntry
 {
   std::array<char, 24> name; ///< ends with a zero
@@ -50,7 +49,6 @@ struct ArrayEntry
   std::uint64_t count, offset;
 };
 
-/// Arrays to write.
 class ArrayWriter
 {
 public:
@@ -84,7 +82,6 @@ public:
   ///   plan; as do all members that read, if the file is damaged
   ArrayFile (ByteSource source, std::string name, std::uint64_t plan);
 
-  /// Values of an array.
   std::size_t count (const std::string& array) const { return find (array).count; }
 
   /// Reads values from `first` to before `last`.
@@ -96,7 +93,6 @@ public:
     readBytes (entry, first, last, reinterpret_cast<char*> (values));
   }
 
-  /// Appends these.
   template <typename T>
   void append (const std::string& array, std::size_t first, std::size_t last,
                std::vector<T>& values)
@@ -152,7 +148,6 @@ private:
   std::uint64_t buffer_at_ = 0; // where they are in the array
 };
 
-/// The files of a run.
 class Store
 {
 public:
@@ -212,7 +207,6 @@ constexpr const char* TRIANGLES = "mesh.bin";
 std::string
 blockFile (const char* step, std::size_t block);
 
-/// Opens a file of a plan.
 ArrayFile
 openArrays (Store& store, const std::string& name, const Plan& plan);
 

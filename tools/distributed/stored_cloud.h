@@ -59,7 +59,6 @@ public:
   {
   }
 
-  /// The file of a block.
   ArrayFile& file (std::size_t block);
 
   /// Values of some points, `width` for each. If they are indices, these must be those of points.
@@ -97,7 +96,6 @@ writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer
   writer.add (array + ".offsets", lists.offsets);
 }
 
-/// Appends a list to others.
 void
 appendRow (const Row& row, CsrLists& all);
 
@@ -111,7 +109,6 @@ toPlaces (const PointBlock& block, std::vector<Index>& points);
 CsrLists
 toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists);
 
-/// Replaces places in a block by their points.
 inline void
 toPoints (const PointBlock& block, std::vector<Index>& places)
 {

@@ -72,18 +72,6 @@ characterBytes (std::string_view text)
   return count;
 }
 
-inline bool
-isUtf8 (std::string_view text)
-{
-  while (!text.empty ()) {
-    const std::size_t bytes = characterBytes (text);
-    if (bytes == 0)
-      return false;
-    text.remove_prefix (bytes);
-  }
-  return true;
-}
-
 /// A text for a terminal: what would control it, and what is no UTF-8, as \x1b.
 inline std::string
 printable (std::string_view text)

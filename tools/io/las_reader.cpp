@@ -111,7 +111,6 @@ readHeader (std::string_view bytes)
   return header;
 }
 
-/// Whether any of the three channels of any point is not black.
 bool
 hasColors (std::string_view bytes, const LasHeader& header)
 {

@@ -149,7 +149,6 @@ encodeName (const std::string& name)
   return encoded;
 }
 
-/// The values of fields of one type, point by point.
 template <std::size_t N>
 void
 writeValues (AtomicFile& file, const std::array<const Field*, N>& fields, const Cloud& cloud)

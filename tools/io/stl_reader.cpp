@@ -3,7 +3,7 @@
 #include "cloud_reader.h"
 #include "text_scanner.h"
 
-#include <set>
+#include <numeric>
 
 namespace pcl::floater {
 namespace {
@@ -11,8 +11,8 @@ constexpr std::size_t STL_HEADER_BYTES = 80;
 constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
 
 /// The distinct corners of facets, in the order in which they come first. Corners that have the
-/// same coordinates are one point, also those of a NaN. By a tree, for whose time it does not matter
-/// what a file holds.
+/// same coordinates are one point, also those of a NaN. By sorting, for whose time it does not
+/// matter what a file holds.
 template <typename Number>
 Cloud
 cloudOf (std::vector<std::array<Number, 3>> corners)
@@ -20,12 +20,22 @@ cloudOf (std::vector<std::array<Number, 3>> corners)
   using Corner = std::array<Number, 3>;
   for (Corner& corner : corners)
     for (Number& coordinate : corner)
-      coordinate += Number{0};      // -0 is 0
-  std::set<std::string_view> known; // bytes of the points so far
+      coordinate += Number{0}; // -0 is 0
+  std::vector<std::size_t> order (corners.size ());
+  std::iota (order.begin (), order.end (), std::size_t{0});
+  const auto bytesOf = [&corners] (std::size_t corner) {
+    return std::string_view (reinterpret_cast<const char*> (&corners[corner]), sizeof (Corner));
+  };
+  std::sort (order.begin (), order.end (), [&bytesOf] (std::size_t a, std::size_t b) {
+    return std::pair (bytesOf (a), a) < std::pair (bytesOf (b), b);
+  });
+  std::vector<bool> repeats (corners.size (), false); // one before
+  for (std::size_t i = 1; i < order.size (); ++i)
+    repeats[order[i]] = bytesOf (order[i]) == bytesOf (order[i - 1]);
   std::vector<Corner> points;
-  for (const Corner& corner : corners)
-    if (known.emplace (reinterpret_cast<const char*> (&corner), sizeof corner).second)
-      points.push_back (corner);
+  for (std::size_t corner = 0; corner < corners.size (); ++corner)
+    if (!repeats[corner])
+      points.push_back (corners[corner]);
   const std::size_t size = points.size ();
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, sizeof (Number) == 4 ? ScalarType::FLOAT32 : ScalarType::FLOAT64,

@@ -35,7 +35,6 @@ note (Column& column, std::string_view word, double value)
                         countDigits (word) <= std::numeric_limits<float>::max_digits10;
 }
 
-/// Rows of numbers, and what the columns turned out to hold.
 class Table
 {
 public:
@@ -110,7 +109,6 @@ public:
                           "names them");
   }
 
-  /// Narrows the columns to their types, and makes fields of them.
   std::vector<Field> fields (std::vector<std::string>& warnings) const
   {
     const bool are_bytes =

@@ -9,7 +9,6 @@
 
 namespace pcl::floater {
 namespace {
-/// The value of an attribute of a tag; empty if it has none.
 std::string_view
 attributeOf (std::string_view tag, std::string_view name)
 {

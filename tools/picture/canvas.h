@@ -37,7 +37,6 @@ public:
 
   double side () const { return static_cast<double> (side_); }
 
-  /// Fills a triangle.
   /// \param shade gives the colour of a point of it from the shares of its corners, which sum to 1
   template <typename Shade>
   void fill (const std::array<Spot, 3>& corners, const Shade& shade)
@@ -67,7 +66,6 @@ public:
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
 
-  /// Draws a line.
   /// \param width in pixels
   void drawLine (Spot from, Spot to, int width, const Colour& colour, double opacity)
   {

@@ -165,7 +165,6 @@ chooseView (const PictureMesh& mesh)
   return {Eigen::AngleAxisd (TURN * DEGREE, up) * tilted, up};
 }
 
-/// Parallel projection, scaled so that the points fill the square picture.
 Camera
 aimCamera (const View& view, const std::vector<Eigen::Vector3d>& points)
 {
@@ -256,12 +255,6 @@ drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& tria
   }
 }
 
-bool
-edgesShow (const PictureMesh& mesh)
-{
-  return mesh.triangles.size () <= MOST_DRAWN_EDGES;
-}
-
 // One light over the left shoulder of the viewer, and a weaker one from the lower right.
 double
 brightness (const Eigen::Vector3d& normal)
@@ -331,7 +324,7 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
   }
   if (!texture)
     drawEdges (canvas, project (mesh.points, camera, canvas, LIFT), mesh.triangles,
-               edgesShow (mesh) ? 1.0 : 0.0);
+               mesh.triangles.size () <= MOST_DRAWN_EDGES ? 1.0 : 0.0);
 }
 
 } // namespace
@@ -385,7 +378,8 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
     const PictureMesh& flat = *options.parameterization;
     const std::vector<Spot> spots =
         project (flat.points, aimCamera (from_above, flat.points), canvas);
-    drawEdges (canvas, spots, flat.triangles, edgesShow (flat) ? 1.0 : 0.2);
+    drawEdges (canvas, spots, flat.triangles,
+               flat.triangles.size () <= MOST_DRAWN_EDGES ? 1.0 : 0.2);
   }
   if (has_two_panels)
     canvas.copyTo (image, height);

@@ -26,7 +26,6 @@ struct PictureMesh
 PictureMesh
 readPictureMesh (const std::filesystem::path& path);
 
-/// Options of a picture.
 struct PictureOptions
 {
   std::optional<PictureMesh> parameterization; ///< mesh in the plane whose edges are drawn beside

@@ -188,7 +188,6 @@ bufferOf (const ResultArray& array)
   return {first, size, array.format, static_cast<py::ssize_t> (shape.size ()), shape, strides};
 }
 
-/// \param owner of the values, which are numbers or arrays of numbers
 template <typename T>
 ResultArray
 arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
@@ -305,7 +304,6 @@ copyTriangles (const py::buffer& buffer)
   return {first, first + info.shape[0]};
 }
 
-/// \return an array of the shape (n, 3) of float
 ResultArray
 normalsOf (const py::buffer& points, const py::buffer& triangles, int threads)
 {

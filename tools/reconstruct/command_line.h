@@ -107,13 +107,11 @@ struct CommandLine
   bool strict = false;                 ///< write no poor mesh, and none with points left out
   std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
 
-  /// The format of the input, if anything tells it, else nullptr.
   CloudFormat cloudFormat () const
   {
     return input_format != nullptr ? input_format : cloudFormatOf (input);
   }
 
-  /// The format of the mesh, if anything tells it.
   std::optional<MeshFormat> meshFormat () const
   {
     return output_format ? output_format : meshFormatOf (output);

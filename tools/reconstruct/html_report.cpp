@@ -25,7 +25,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Box = Eigen::AlignedBox3d;
 
-/// Triangles of one kind of flaw.
 struct Flaw
 {
   const char* name;

@@ -26,38 +26,26 @@ class Progress
 {
 public:
   explicit Progress (bool wanted)
-      : is_shown_ (wanted && ::isatty (STDERR_FILENO) == 1 && canErase (std::getenv ("TERM")))
   {
+    const char* const terminal = std::getenv ("TERM");
+    is_shown_ = wanted && ::isatty (STDERR_FILENO) == 1 && terminal != nullptr &&
+                *terminal != '\0' && std::string (terminal) != "dumb";
   }
-  ~Progress () { clear (); }
+  ~Progress () { show (""); }
   Progress (const Progress&) = delete;
   Progress& operator= (const Progress&) = delete;
 
   void show (const std::string& step)
   {
-    if (is_shown_ && step != shown_) {
-      std::fprintf (stderr, "\r\033[K%s ...", step.c_str ());
-      std::fflush (stderr);
-      shown_ = step;
-    }
-  }
-
-  void clear ()
-  {
-    if (is_shown_ && !shown_.empty ()) {
-      std::fputs ("\r\033[K", stderr);
-      std::fflush (stderr);
-      shown_.clear ();
-    }
+    if (!is_shown_ || step == shown_)
+      return;
+    std::fputs (("\r\033[K" + step + (step.empty () ? "" : " ...")).c_str (), stderr);
+    std::fflush (stderr);
+    shown_ = step;
   }
 
 private:
-  static bool canErase (const char* terminal)
-  {
-    return terminal != nullptr && *terminal != '\0' && std::string (terminal) != "dumb";
-  }
-
-  bool is_shown_;
+  bool is_shown_ = false;
   std::string shown_;
 };
 
@@ -281,7 +269,7 @@ run (CommandLine line)
   OutputFiles files;
   stageAll (line, cloud, result, figures, files);
   figures.write_seconds = secondsSince (start);
-  progress.clear ();
+  progress.show ("");
   printOutcome (line, report, figures);
   for (AtomicFile& file : files)
     file.publish ();

@@ -208,7 +208,7 @@ addFiles (CLI::App& app, CommandLine& line)
            " ")
       ->required ();
   addPath (app, "OUTPUT", line.output,
-           "mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; - is the standard output", files,
+           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", files,
            " ")
       ->required ();
   addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,

@@ -92,7 +92,6 @@ prepareApp (CLI::App& app, const char* description, const char* footer);
 std::optional<int>
 parseArguments (CLI::App& app, const std::vector<std::string>& arguments);
 
-/// The message for an option that is out of its range.
 /// \param problem of checkOptions ()
 std::string
 rangeMessage (const CLI::App& app, const Problem& problem);
@@ -107,15 +106,12 @@ void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes);
 
-/// --normals and --report.
 void
 addOutputs (CLI::App& app, CommandLine& line);
 
-/// --max-memory and --scratch.
 void
 addMemoryLimit (CLI::App& app, CommandLine& line);
 
-/// --shift, --columns, --classes and --precision.
 void
 addCoordinates (CLI::App& app, CommandLine& line);
 

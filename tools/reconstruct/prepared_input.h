@@ -60,7 +60,6 @@ writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
 void
 replaceNormals (Cloud& cloud, const Triangles& triangles, int threads);
 
-/// The exit code of a run.
 int
 exitCode (const Report& report, const RunFigures& run);
 

@@ -35,7 +35,6 @@ resultJson (const Report& report);
 std::string
 objectionTo (const Report& report);
 
-/// Seconds of each stage.
 nlohmann::ordered_json
 secondsJson (const Statistics& statistics);
 
