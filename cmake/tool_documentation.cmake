@@ -15,6 +15,7 @@ endif ()
 
 set (makes_man_pages ${makes_man_pages} PARENT_SCOPE)
 
+# Installs a tool and its documentation:
 # pcl_floater_document_tool (<tool> SUMMARY <text> EXAMPLE <command|command...> [COLUMN <width>]
 #                            [COMPONENT <name>])
 # COLUMN: width of the column of names in its --help. COMPONENT: of the installation, by default tools.
@@ -40,6 +41,7 @@ function (pcl_floater_document_tool tool)
     add_custom_target (${tool}_man_page ALL DEPENDS "${page}")
   endif ()
   if (PCL_FLOATER_INSTALL)
+    install (TARGETS ${tool} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT ${arg_COMPONENT})
     install (FILES "${PROJECT_SOURCE_DIR}/tools/completion.bash" RENAME "${tool}"
              DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT ${arg_COMPONENT})
     if (makes_man_pages AND NOT PCL_FLOATER_PACKAGES) # which have compressed ones

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "mesh_oracle.h"
-#include "random_stream.h"
 #include "surfaces.h"
 
 #include <pcl/Vertices.h>

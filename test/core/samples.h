@@ -8,7 +8,7 @@
 #include "local/local_geometry.h"
 #include "mesh_oracle.h"
 #include "points/neighbors.h"
-#include "random_stream.h"
+#include "surfaces.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 

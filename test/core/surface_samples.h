@@ -43,9 +43,11 @@ generated (const SurfaceSpec& spec)
 {
   KnownSurface made;
   made.points = generateSurface (spec);
-  made.loops = static_cast<std::size_t> (boundaryLoops (spec));
-  made.handles =
-      static_cast<std::size_t> (2 - boundaryLoops (spec) - eulerCharacteristic (spec)) / 2;
+  const bool is_torus = spec.kind == SurfaceKind::TORUS;
+  made.loops = spec.kind == SurfaceKind::CUT_OUT ? 1 + static_cast<std::size_t> (spec.holes)
+               : is_torus || spec.kind == SurfaceKind::SPHERE ? 0
+                                                              : 1;
+  made.handles = is_torus ? 1 : 0;
   // Wavy sheets are larger, and where samples are sparse, the outermost are far from the rim.
   const bool is_known = spec.kind != SurfaceKind::CUT_OUT && spec.density_ratio == 1.0;
   made.area = is_known ? static_cast<double> (spec.points) : 0.0;

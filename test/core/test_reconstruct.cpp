@@ -51,7 +51,7 @@ TEST (Reconstruct, KnownDiscs)
 {
   for (const SurfaceKind kind : {SurfaceKind::HEIGHT_FIELD, SurfaceKind::HEMISPHERE,
                                  SurfaceKind::FINGER, SurfaceKind::FOLDED_SHEET}) {
-    SCOPED_TRACE (surfaceName (kind));
+    SCOPED_TRACE (static_cast<int> (kind));
     const Positions cloud = surface (kind, 3000);
     const Result result = reconstruct (asInput (cloud), discOptions ());
     expectDisc (result, cloud.size ());

@@ -201,7 +201,7 @@ TEST (Callbacks, ComeFromTheirThreadsAndChangeNothing)
     const Positions points = surface (kind, POINTS);
     const Result plain = reconstruct (asInput (points), options);
     for (const int threads : {1, 3}) {
-      SCOPED_TRACE (surfaceName (kind) + std::to_string (threads));
+      SCOPED_TRACE (std::to_string (static_cast<int> (kind)) + ", " + std::to_string (threads));
       std::set<std::thread::id> of_calls;
       std::vector<double> fractions;
       Options watched = options;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attack.h"
 
-#include "random_stream.h"
+#include "surfaces.h"
 
 #include <Eigen/Geometry>
 

@@ -359,16 +359,14 @@ class Page(PageCase):
             self.assertEqual(data["report"][key], report[key])
         for key in ("loop", "unused", "outliers", "scatter", "non_finite", "duplicates"):
             self.assertEqual(data["report"][key], len(report[key]))
-        verdict = report["verdict"]
-        self.assertEqual(data["headline"]["word"], verdict["value"])
-        self.assertEqual(data["headline"]["text"], f"{verdict['cause']}. What helps: {verdict['remedy']}")
-        self.assertEqual(sorted(data["sentences"] + data["other_warnings"]), sorted(report["warnings"]))
+        self.assertTrue(data["sentences"])
+        self.assertLessEqual(set(data["sentences"]), set(report["warnings"]))
         mesh = data["mesh"]
         self.assertEqual(mesh["triangles"], report["statistics"]["triangles"])
-        corners = self.numbers(mesh["corners"], "H" if mesh["short"] else "I")
+        corners = self.numbers(mesh["corners"], "I")
         self.assertEqual(len(corners), 3 * mesh["shown"])
         self.assertEqual(mesh["shown"], mesh["triangles"])
-        positions = self.numbers(mesh["positions"], "f" if mesh["floats"] else "H")
+        positions = self.numbers(mesh["positions"], "f")
         self.assertEqual(len(positions), 3 * report["statistics"]["used_points"])
         self.assertEqual(set(corners), set(range(len(positions) // 3)))
         for name, histogram in data["histograms"].items():
@@ -382,22 +380,22 @@ class Page(PageCase):
                 self.assertEqual(flaw["count"] > 0, report["check"][expected[flaw["name"]]] > 0, flaw["name"])
         dots = {kind["name"]: kind for kind in mesh["dots"]}
         self.assertEqual({name: kind["count"] for name, kind in dots.items()},
-                         {name: len(report[name]) for name in ("scatter", "outliers", "unused")})
+                         {"points": 0, **{name: len(report[name]) for name in ("scatter", "outliers", "unused")}})
         self.assertLess(dots["outliers"]["shown"], dots["outliers"]["count"])  # one is too far away to be shown
 
     def test_a_large_mesh_is_thinned_but_for_its_flaws(self):
         cloud = self.noisy()
-        (whole, _), (some, report) = self.page(cloud), self.page(cloud, "--limit", "page.triangles=2000")
+        (whole, _), (some, report) = self.page(cloud), self.page(cloud, "--page-triangles", "2000")
         mesh = some["mesh"]
         self.assertEqual(mesh["triangles"], report["statistics"]["triangles"])
         self.assertTrue(1000 < mesh["shown"] <= 2000)
         self.assertEqual([f["count"] for f in mesh["flaws"]], [f["count"] for f in whole["mesh"]["flaws"]])
         self.assertEqual(some["histograms"], whole["histograms"])
-        corners = self.numbers(mesh["corners"], "H")
+        corners = self.numbers(mesh["corners"], "I")
         triangles = list(zip(*[iter(corners)] * 3))
-        self.assertEqual((len(triangles), max(corners)), (mesh["shown"], len(self.numbers(mesh["positions"], "H")) / 3 - 1))
+        self.assertEqual((len(triangles), max(corners)), (mesh["shown"], len(self.numbers(mesh["positions"], "f")) / 3 - 1))
         self.assertTrue(all(len(set(t)) == 3 for t in triangles))
-        few = self.page(cloud, "--limit", "page.triangles=100")[0]["mesh"]  # less than there are flaws
+        few = self.page(cloud, "--page-triangles", "100")[0]["mesh"]  # less than there are flaws
         self.assertEqual((mesh["all_flaws"], few["all_flaws"]), (True, False))
         self.assertTrue(0 < few["shown"] <= 100)
 
@@ -412,11 +410,11 @@ class Page(PageCase):
     def test_a_failure_has_a_page_with_the_points(self):
         self.write("line.xyz", "".join(f"{i} 0 0\n" for i in range(50)))
         data, report = self.page("line.xyz", code=3, says="line.xyz")
-        self.assertEqual(data["headline"], {"level": "failed", "word": "no mesh", "text": report["message"]})
+        self.assertEqual(data["report"]["message"], report["message"])
         self.assertEqual((data["mesh"]["shown"], data["mesh"]["dots"][0]["shown"]), (0, 50))
         self.check(0, GENERATE, "torus", "torus.ply", "--points", "3000", "--noise", "1.5")
         data, report = self.page("torus.ply", "--scatter", "keep", "--strict", code=6, says="--strict")
-        self.assertEqual((report["status"], data["headline"]["level"]), ("REFUSED", "failed"))
+        self.assertEqual((report["status"], data["report"]["status"]), ("REFUSED", "REFUSED"))
         self.assertGreater(data["mesh"]["shown"], 0)
 
 

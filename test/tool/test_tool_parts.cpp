@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds whose fields stay in the file, and the time that a run still takes.
 #include "cloud_reader.h"
-#include "remaining_time.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +23,7 @@ TEST (MappedCloud, BinaryFieldsStayInTheFileWhoseChangesAreNoticed)
   EXPECT_EQ (x.asDouble (1), 3.0039215087890625);
   const Cloud cloud = readCloud (path);
   const std::vector<Eigen::Vector3d> positions = cloud.positions ();
-  cloud.file.giveBack ();
+  giveBackMappedFiles ();
   EXPECT_EQ (cloud.positions (), positions); // are read from the file again
   EXPECT_TRUE (isInMappedFile (cloud.fields[0].first.get ()));
   EXPECT_FALSE (cloud.file.hasChanged ());

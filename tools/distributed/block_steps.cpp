@@ -11,9 +11,6 @@
 #include "stored_cloud.h"
 #include "view/ray_evidence.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 constexpr double HALO = 1.0; // width, see BlockCutter: neighbours are nearer
@@ -43,8 +40,9 @@ neighborsStep (const StepContext& context, std::size_t block)
   if (first == last)
     return put (context, "neighbors", block);
   BlockSearch search (cloud.cutter (), block, context.run, HALO);
-  const CsrLists neighbors = findNearestOfBlock (search, Rows::range (first, last), cloud.points (),
-                                                 context.options.neighbors.k, context.run);
+  const CsrLists neighbors =
+      findNearestOfBlock (search, Rows::range (first, last), cloud.ranges ().points (),
+                          context.options.neighbors.k, context.run);
   ArrayWriter writer;
   writer.add ("ids", neighbors.ids);
   put (context, "neighbors", block, writer);
@@ -76,36 +74,6 @@ outliersStep (const Job& job, FolderStore& store, const Plan& plan)
 
 namespace {
 constexpr double PLANE_HALO = 2.0; // width, see BlockCutter
-
-// A point before outliers were removed, by its number after that.
-Index
-numberBefore (Index point, const std::vector<Index>& removed)
-{
-  std::size_t first = 0, last = removed.size (); // those removed up to the point are below
-  while (first < last) {
-    const std::size_t middle = first + (last - first) / 2;
-    if (removed[middle] - middle <= point)
-      first = middle + 1;
-    else
-      last = middle;
-  }
-  return point + static_cast<Index> (first);
-}
-
-CsrLists
-renewOwn (const OwnBlock& own, BlockSearch& search, const StepContext& context)
-{
-  const BlockRanges before (context.plan, context.plan.points);
-  StoredNeighbors found (context, {}, before);
-  const Index first = numberBefore (own.first, own.outliers);
-  const CsrLists lists =
-      found.nearest (pointsFrom (first, numberBefore (own.last - 1, own.outliers) + 1));
-  return renewRows (lists, first, context.plan.points, own.outliers, [&] (const Rows& rows) {
-    return findNearestOfBlock (search, rows, own.cloud.points (), context.options.neighbors.k,
-                               context.run);
-  });
-}
-
 } // namespace
 
 void
@@ -115,17 +83,18 @@ planesStep (const StepContext& context, std::size_t block)
   if (own.isEmpty ())
     return put (context, "planes", block);
   ArrayWriter writer;
-  CsrLists renewed, beside_lists;
+  CsrLists beside_lists;
   std::vector<float> beside_reach, spacing;
   std::vector<Eigen::Vector3f> normals;
   StoredCloud& cloud = own.cloud;
   BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
   const std::vector<Index> points = pointsFrom (own.first, own.last);
-  CsrLists nearest;
-  if (own.outliers.empty ())
-    nearest = StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points);
-  else
-    nearest = renewed = renewOwn (own, search, context);
+  const CsrLists nearest =
+      own.outliers.empty ()
+          ? StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points)
+          : findNearestOfBlock (search, Rows::range (own.first, own.last),
+                                cloud.ranges ().points (), context.options.neighbors.k,
+                                context.run);
   takeIn (points, nearest, cloud, search);
   do {
     const PointBlock& local = search.block ();
@@ -164,7 +133,7 @@ planesStep (const StepContext& context, std::size_t block)
         normals[i] = given[i];
   }
   if (!own.outliers.empty ())
-    writeLists ("renewed", renewed, writer);
+    writer.add ("ids", nearest.ids);
   writeLists ("beside", beside_lists, writer);
   writer.add ("beside_reach", beside_reach);
   writer.add ("spacing", spacing);
@@ -177,7 +146,6 @@ namespace {
 // spacings ahead, and are made again where that leaves the block.
 constexpr double STAR_HALO = 2.0;
 
-// Appends the star of a row to others.
 void
 appendStar (const Stars& from, std::size_t row, Stars& to)
 {
@@ -222,7 +190,7 @@ starsStep (const StepContext& context, std::size_t block)
   const std::vector<float> own_spacing = stored.planes ().gather<float> ("spacing", own);
   const std::vector<float> own_reach = stored.planes ().gather<float> ("beside_reach", own);
   std::vector<Index> centres =
-      areaSampleCentres (cloud.points (), context.limits.view.search.samples);
+      areaSampleCentres (cloud.ranges ().points (), context.limits.view.search.samples);
   centres.erase (std::remove_if (centres.begin (), centres.end (),
                                  [&] (Index p) { return p < first || p >= last; }),
                  centres.end ());

@@ -5,7 +5,6 @@
 // not depend on the blocks.
 #pragma once
 
-#include "command_line.h"
 #include "core/run_context.h"
 #include "options/stage_limits.h"
 #include "points/points.h"

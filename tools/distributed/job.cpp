@@ -2,28 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "job.h"
 
-#include "atomic_file.h"
-#include "format.h"
 #include "input/input.h"
-#include "mesh_output.h"
-#include "mesh_writer.h"
 #include "options/check_options.h"
-#include "options/option_rows.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "report/report_cloud.h"
 #include "report_json.h"
-#include "run_report.h"
 #include "stored_cloud.h"
-#include "tiles.h"
 
 #include <nlohmann/json.hpp>
 
-#include <sys/stat.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <cstdio>
 
 namespace pcl::floater {
@@ -34,7 +22,6 @@ constexpr const char* REPORT = "report.json";
 // points: below, more time goes to pages that come back than to all else.
 constexpr double KEPT_BY_PLAN = 9.0;
 
-// Calls visit (name) for the files of all blocks.
 template <typename Visit>
 void
 forBlockFiles (const Plan& plan, Visit&& visit)
@@ -156,13 +143,8 @@ void
 prepareFolders (const Job& job)
 {
   std::error_code error;
-  const std::filesystem::path work =
-      job.work.has_filename () ? job.work : job.work.parent_path (); // "town/"
-  if (work.has_parent_path ())
-    std::filesystem::create_directories (work.parent_path (), error);
-  constexpr mode_t OWN = 0700;
-  if (!error && ::mkdir (work.c_str (), OWN) != 0 && errno != EEXIST)
-    error = std::make_error_code (static_cast<std::errc> (errno));
+  if (std::filesystem::create_directories (job.work, error))
+    std::filesystem::permissions (job.work, std::filesystem::perms::owner_all, error);
   if (error || !std::filesystem::is_directory (job.work))
     throw WriteError ("cannot make the work folder '" + job.work.string () +
                       "': " + (error ? error.message () : "there is a file of that name"));
@@ -182,11 +164,14 @@ int
 planStep (const Job& job, FolderStore& store)
 {
   Plan plan;
-  for (const std::string& argument : job.arguments)
-    if (!isUtf8 (argument))
-      throw UsageError ("'" + argument +
-                        "' is no UTF-8, which the manifest of the work folder is; "
-                        "use other names of files and folders");
+  try {
+    nlohmann::json (job.arguments).dump ();
+  }
+  catch (const nlohmann::json::exception&) {
+    throw UsageError (
+        "an argument is no UTF-8, which the manifest of the work folder is; use other "
+        "names of files and folders");
+  }
   for (const std::filesystem::path& input : job.inputs)
     plan.inputs.push_back (describeInput (input));
   CommandLine line = job.line;
@@ -224,7 +209,6 @@ planStep (const Job& job, FolderStore& store)
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers, run);
-  store.finish ();
   writeFile (store.path (MANIFEST), manifestText (plan),
              true); // last: with it, the step is finished
   return EXIT_OK;
@@ -272,10 +256,8 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   ArrayWriter writer;
   writer.add ("triangles", result.triangles);
   store.put (TRIANGLES, writer, plan.id);
-  if (job.frees_disk) {
-    store.finish (); // the mesh is on the disk before that of which it was made goes
+  if (job.frees_disk)
     forBlockFiles (plan, [&store] (const std::string& name) { store.remove (name); });
-  }
   return EXIT_OK;
 }
 

@@ -4,17 +4,12 @@
 #pragma once
 
 #include "block_steps.h"
-#include "command_line.h"
-#include "plan.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pcl::floater {
-/// Exit code if a file of the work folder cannot be used.
-constexpr int EXIT_WORK = 7;
-
 /// What the user asked for.
 struct Job
 {
@@ -55,5 +50,24 @@ planStep (const Job& job, FolderStore& store);
 /// \throws WorkError if they are others
 Plan
 readPlan (const Job& job, FolderStore& store);
+
+/// The manifest, in the folder of the tiles. It is written last.
+constexpr const char* TILES = "tiles.json";
+
+/// Writes the tiles and then the manifest. Of several files, each has a tile, which owns its points;
+/// of one file, each block. A repeated point belongs to the tile of the one that stands for it then,
+/// and a gross outlier, which is in no block, to the first tile. A triangle goes to the tile that owns the one of its
+/// corners with the smallest number. A tile has its own vertices, by their numbers, and then those
+/// that its triangles have at the border, by the tile that owns them and their numbers. The
+/// manifest of an older run is removed first, and older tiles of higher numbers too.
+/// O(n log n), 16 bytes per vertex beside mesh and owners, and the largest tile twice.
+/// \param folder is made if it does not exist
+/// \param cloud of all files, without the points that are not finite
+/// \param firsts see readClouds
+/// \return losses of the format, one sentence each
+/// \throws WriteError, WorkError
+std::vector<std::string>
+writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Triangles& triangles,
+            const std::vector<std::size_t>& firsts, FolderStore& store, const Plan& plan);
 
 } // namespace pcl::floater

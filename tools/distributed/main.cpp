@@ -3,11 +3,9 @@
 // Reconstructs a surface of more points than one machine holds or can wait for: in blocks, on one
 // or more processes of MPI, with all that is known on disk between the steps. What is finished is
 // known by its file alone, so that a run that was ended goes on where it was.
-#include "atomic_file.h"
 #include "heap.h"
 #include "job.h"
 #include "messages.h"
-#include "run_report.h"
 #include "scratch_arrays.h"
 
 #include <array>
@@ -42,25 +40,17 @@ template <typename Work>
 int
 guarded (Work&& work, std::string* to = nullptr)
 {
-  std::string message;
-  int code = EXIT_WORK;
   try {
     return work ();
   }
-  catch (const RemoteFailure& failure) {
-    message = failure.what ();
-    code = failure.code;
-  }
-  catch (const WorkError& error) {
-    message = error.what ();
-  }
   catch (...) {
-    code = describeException ("use more blocks, or a machine with more", message);
+    std::string message;
+    const int code = describeException ("use more blocks, or a machine with more", message);
+    if (to == nullptr)
+      return fail ("pcl_floater_distributed", code, message);
+    *to = message;
+    return code;
   }
-  if (to == nullptr)
-    return fail ("pcl_floater_distributed", code, message);
-  *to = message;
-  return code;
 }
 
 // A process that is not the first.
@@ -73,10 +63,8 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   for (;;) {
     processes.send (0, {});
     const Message order = processes.receive (0);
-    if (order.topic == Topic::END) {
-      folder.finish ();
+    if (order.topic == Topic::END)
       return static_cast<int> (order.number);
-    }
     Message outcome{Topic::DONE};
     outcome.number = static_cast<std::uint64_t> (guarded (
         [&] {
@@ -149,7 +137,6 @@ workOnSteps (const Job& job, FolderStore& folder, Dealer* dealer)
     tellOf (std::string (step.name) + ": " + std::to_string (left.size ()) + " blocks done, " +
             std::to_string (plan.blocks - left.size ()) + " finished before");
   }
-  folder.finish ();
   return EXIT_OK;
 }
 

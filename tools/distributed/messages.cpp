@@ -5,8 +5,6 @@
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <exception>
 #include <thread>
@@ -108,7 +106,7 @@ void
 RemoteStore::put (const std::string& name, const std::function<void (const TakeBytes&)>& emit)
 {
   Message message{Topic::PUT, 0, 0, name + "\n"};
-  emit ([&message] (const char* bytes, std::size_t count) { message.text.append (bytes, count); });
+  emit ([&message] (std::string_view bytes) { message.text += bytes; });
   processes_.send (0, message);
   processes_.receive (0); // it is on the disk
 }
@@ -124,7 +122,7 @@ Dealer::serve ()
   patience_ = {};
   const Message message = processes_.receive (*from);
   if (message.topic == Topic::FAIL)
-    throw RemoteFailure (static_cast<int> (message.number), message.text);
+    throw ToolError (static_cast<int> (message.number), message.text);
   if (message.topic == Topic::IDLE)
     idle_.insert (*from);
   else if (message.topic == Topic::READ)
@@ -160,9 +158,8 @@ Dealer::write (int process, const std::string& file)
   std::exception_ptr error;
   try {
     const std::size_t end = file.find ('\n');
-    folder_.put (file.substr (0, end), [&file, end] (const TakeBytes& take) {
-      take (file.data () + end + 1, file.size () - end - 1);
-    });
+    folder_.put (file.substr (0, end),
+                 [&] (const TakeBytes& take) { take (std::string_view (file).substr (end + 1)); });
   }
   catch (...) {
     error = std::current_exception ();

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "block_steps.h"
-#include "store.h"
 
 #include <chrono>
 #include <cstdint>
@@ -36,7 +35,6 @@ struct Message
   std::string text{};
 };
 
-/// The processes of MPI_COMM_WORLD.
 class Processes
 {
 public:
@@ -45,15 +43,12 @@ public:
   ~Processes (); ///< calls MPI_Finalize
   Processes (const Processes&) = delete;
   Processes& operator= (const Processes&) = delete;
-  Processes (Processes&&) = delete;
-  Processes& operator= (Processes&&) = delete;
 
   int self () const { return self_; } ///< 0 to count () - 1
   int count () const { return count_; }
 
   void send (int to, const Message& message);
 
-  /// Waits for a message of a process.
   Message receive (int from);
 
   /// The process of which a message is there, if there is one.
@@ -83,17 +78,6 @@ private:
   Processes& processes_;
 };
 
-/// Another process has failed, and has told why.
-struct RemoteFailure : std::runtime_error
-{
-  RemoteFailure (int exit_code, const std::string& message)
-      : std::runtime_error (message), code (exit_code)
-  {
-  }
-
-  int code;
-};
-
 /// Sleeps longer and longer, so that a quick answer comes quickly and a late one costs nothing.
 class Patience
 {
@@ -112,7 +96,7 @@ public:
   Dealer (Processes& processes, FolderStore& folder) : processes_ (processes), folder_ (folder) {}
 
   /// Deals out the blocks of a step, and works on some.
-  /// \throws RemoteFailure, and whatever a block of its own throws
+  /// \throws what another process has told as its failure, or a block of its own has thrown
   void run (const StepContext& context, const Step& step, const std::vector<std::size_t>& blocks);
 
   /// Ends all other processes, and answers those that still work on something.

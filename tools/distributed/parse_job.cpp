@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line.
-#include "format.h"
 #include "job.h"
 #include "option_table.h"
 #include "options/check_options.h"
-#include "options/option_rows.h"
 
 #include <CLI/CLI.hpp>
 
@@ -69,8 +66,7 @@ addSteps (CLI::App& app, Job& job)
              "do this step only: " + of_all.substr (2) +
                  "; or for a block: " + of_blocks.substr (2),
              "NAME (all)", group);
-  addNumber (app, "--block", job.block, "block of the step, from 0", group);
-  app.get_option ("--block")->option_text ("N");
+  addNumber (app, "--block", job.block, "block of the step, from 0", group)->option_text ("N");
   app.add_flag ("--print-steps", job.prints_steps,
                 "print the commands of all steps after the plan, and exit")
       ->group (group);
@@ -104,9 +100,8 @@ void
 addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
 {
   app.add_option ("FILES", files,
-                  "point clouds: .pcd, .ply, .obj, .stl, .las, .xyz, .txt, .csv, .asc or .pts; "
-                  "then the mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; with --tiles "
-                  "a folder")
+                  std::string ("point clouds: ") + CLOUD_EXTENSIONS +
+                      "; then the mesh to write: " + MESH_EXTENSIONS + "; with --tiles a folder")
       ->option_text (" ");
   app.add_flag ("--tiles", job.writes_tiles,
                 "write the mesh as a folder of .ply files: one for each file of points, or of a "
@@ -115,7 +110,6 @@ addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
   addOutputs (app, job.line);
 }
 
-// \throws UsageError, ReadError, WriteError
 void
 takeFiles (const std::vector<std::string>& files, Job& job)
 {

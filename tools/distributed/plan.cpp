@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <xxhash.h>
 
-#include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace pcl::floater {

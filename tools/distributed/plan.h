@@ -3,7 +3,6 @@
 // The manifest of a work folder: what is reconstructed, how, and in which blocks.
 #pragma once
 
-#include "cloud_reader.h"
 #include "run_report.h"
 
 #include <array>
@@ -50,7 +49,6 @@ std::uint64_t
 planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
         const std::vector<std::string>& arguments);
 
-/// The text of the manifest.
 std::string
 manifestText (const Plan& plan);
 

@@ -8,7 +8,6 @@
 #include <xxhash.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace pcl::floater {
 // A head, a table of the arrays, and the arrays, in pieces with a checksum behind each. Numbers are
@@ -85,16 +84,16 @@ ArrayWriter::emit (std::uint64_t plan, const TakeBytes& take) const
     head.size += withChecksums (entry.element * entry.count);
   }
   head.checksum = checksumOf (head, table);
-  take (reinterpret_cast<const char*> (&head), sizeof (head));
-  take (reinterpret_cast<const char*> (table.data ()), table.size () * sizeof (ArrayEntry));
+  take ({reinterpret_cast<const char*> (&head), sizeof (head)});
+  take ({reinterpret_cast<const char*> (table.data ()), table.size () * sizeof (ArrayEntry)});
   for (std::size_t i = 0; i < table.size (); ++i)
     for (std::uint64_t left = table[i].element * table[i].count, count = 0; left > 0;
          left -= count) {
       const char* const piece = values_[i] + (table[i].element * table[i].count - left);
       count = std::min (PIECE, left);
       const std::uint64_t checksum = checksumOf (piece, count);
-      take (piece, count);
-      take (reinterpret_cast<const char*> (&checksum), sizeof (checksum));
+      take ({piece, count});
+      take ({reinterpret_cast<const char*> (&checksum), sizeof (checksum)});
     }
 }
 
@@ -240,29 +239,9 @@ void
 FolderStore::put (const std::string& name, const std::function<void (const TakeBytes&)>& emit)
 {
   AtomicFile file (path (name), true);
-  emit ([&file] (const char* bytes, std::size_t count) { file.write (bytes, count); });
-  file.close (false);
+  emit ([&file] (std::string_view bytes) { file.write (bytes); });
+  file.close ();
   file.publish ();
-  const std::lock_guard<std::mutex> lock (mutex_);
-  if (syncing_.valid ())
-    syncing_.get ();
-  syncing_ = std::async (std::launch::async, [this, name] {
-    try {
-      syncFile (path (name));
-    }
-    catch (const WriteError&) {
-      remove (name);
-      throw;
-    }
-  });
-}
-
-void
-FolderStore::finish ()
-{
-  const std::lock_guard<std::mutex> lock (mutex_);
-  if (syncing_.valid ())
-    syncing_.get ();
 }
 
 void

@@ -3,7 +3,6 @@
 // Where the files of a run are: in its work folder, or at another process that has it.
 #pragma once
 
-#include "atomic_file.h"
 #include "core/types.h"
 #include "plan.h"
 
@@ -13,22 +12,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <limits>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl::floater {
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 10;
+constexpr std::uint32_t WORK_FORMAT = 11;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
-class WorkError : public std::runtime_error
+struct WorkError : ToolError
 {
-public:
-  using std::runtime_error::runtime_error;
+  explicit WorkError (const std::string& message) : ToolError (EXIT_WORK, message) {}
 };
 
 /// Bytes of a file, wherever it is.
@@ -44,9 +40,8 @@ struct ByteSource
 };
 
 /// Takes the bytes of a file, one piece after the other.
-using TakeBytes = std::function<void (const char* bytes, std::size_t count)>;
+using TakeBytes = std::function<void (std::string_view bytes)>;
 
-/// An array in a file.
 struct ArrayEntry
 {
   std::array<char, 24> name; ///< ends with a zero
@@ -54,7 +49,6 @@ struct ArrayEntry
   std::uint64_t count, offset;
 };
 
-/// Arrays to write.
 class ArrayWriter
 {
 public:
@@ -88,7 +82,6 @@ public:
   ///   plan; as do all members that read, if the file is damaged
   ArrayFile (ByteSource source, std::string name, std::uint64_t plan);
 
-  /// Values of an array.
   std::size_t count (const std::string& array) const { return find (array).count; }
 
   /// Reads values from `first` to before `last`.
@@ -100,7 +93,6 @@ public:
     readBytes (entry, first, last, reinterpret_cast<char*> (values));
   }
 
-  /// Appends these.
   template <typename T>
   void append (const std::string& array, std::size_t first, std::size_t last,
                std::vector<T>& values)
@@ -156,7 +148,6 @@ private:
   std::uint64_t buffer_at_ = 0; // where they are in the array
 };
 
-/// The files of a run.
 class Store
 {
 public:
@@ -181,10 +172,9 @@ public:
   }
 };
 
-/// The files are in a folder. They are visible when they are complete, and brought to the disk
-/// while the next one is made: a machine that stops without warning leaves files of which the
-/// checksums tell that they are damaged. Others must not be able to write them: each is a file of
-/// this user, writable by nobody else, and no symbolic link.
+/// The files are in a folder. They are visible when they are complete and on the disk. Others must
+/// not be able to write them: each is a file of this user, writable by nobody else, and no symbolic
+/// link.
 class FolderStore : public Store
 {
 public:
@@ -203,14 +193,8 @@ public:
   /// Removes a file, if it is there. Others that are open go on to read it.
   void remove (const std::string& name) const;
 
-  /// Waits until all files are on the disk.
-  /// \throws WriteError if one is not; it is removed
-  void finish ();
-
 private:
   std::filesystem::path folder_;
-  std::mutex mutex_;          // guards the next one
-  std::future<void> syncing_; // brings the last file to the disk
 };
 
 constexpr const char* MANIFEST = "manifest.json";
@@ -223,7 +207,6 @@ constexpr const char* TRIANGLES = "mesh.bin";
 std::string
 blockFile (const char* step, std::size_t block);
 
-/// Opens a file of a plan.
 ArrayFile
 openArrays (Store& store, const std::string& name, const Plan& plan);
 

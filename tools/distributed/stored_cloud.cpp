@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stored_cloud.h"
 
-#include <algorithm>
-#include <functional>
-
 namespace pcl::floater {
 ArrayFile&
 Slices::file (std::size_t block)

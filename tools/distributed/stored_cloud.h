@@ -7,7 +7,6 @@
 #include "core/csr_lists.h"
 #include "core/order_statistics.h"
 #include "points/point_block.h"
-#include "store.h"
 
 #include <algorithm>
 #include <map>
@@ -60,7 +59,6 @@ public:
   {
   }
 
-  /// The file of a block.
   ArrayFile& file (std::size_t block);
 
   /// Values of some points, `width` for each. If they are indices, these must be those of points.
@@ -98,7 +96,6 @@ writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer
   writer.add (array + ".offsets", lists.offsets);
 }
 
-/// Appends a list to others.
 void
 appendRow (const Row& row, CsrLists& all);
 
@@ -112,7 +109,6 @@ toPlaces (const PointBlock& block, std::vector<Index>& points);
 CsrLists
 toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists);
 
-/// Replaces places in a block by their points.
 inline void
 toPoints (const PointBlock& block, std::vector<Index>& places)
 {
@@ -139,7 +135,7 @@ public:
       : file_ (openArrays (context.store, name, context.plan)),
         ranges_ (context.plan, file_.count ("positions")),
         cutter_ (
-            points (), file_.read<Box> ("groups"), context.plan.blocks,
+            ranges_.points (), file_.read<Box> ("groups"), context.plan.blocks,
             [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
               file_.append ("buckets", first, last, buckets);
             },
@@ -150,7 +146,6 @@ public:
   }
 
   ArrayFile& file () { return file_; }
-  std::size_t points () const { return ranges_.points (); }
   const BlockRanges& ranges () const { return ranges_; }
   const BlockCutter& cutter () const { return cutter_; }
 
@@ -178,18 +173,16 @@ class StoredNeighbors
 public:
   StoredNeighbors (const StepContext& context, const std::vector<Index>& outliers,
                    const BlockRanges& ranges)
-      : are_renewed_ (!outliers.empty ()),
-        width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
+      : width_ (std::min<std::size_t> (static_cast<std::size_t> (context.options.neighbors.k),
                                        ranges.points () - 1)),
-        found_ (context, ranges, "neighbors"), planes_ (context, ranges, "planes")
+        found_ (context, ranges, outliers.empty () ? "neighbors" : "planes"),
+        planes_ (context, ranges, "planes")
   {
   }
 
   // Without those beside lines.
   CsrLists nearest (const std::vector<Index>& points)
   {
-    if (are_renewed_)
-      return planes_.gatherLists ("renewed", points);
     requireListed (points.size () * width_);
     CsrLists lists;
     lists.ids = found_.gather<Index> ("ids", points, width_);
@@ -207,7 +200,6 @@ public:
   Slices& planes () { return planes_; }
 
 private:
-  bool are_renewed_;
   std::size_t width_;
   Slices found_, planes_;
 };

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tiles.h"
+// A mesh as tiles: one PLY file for each input file or block, and a manifest that tells how they
+// belong together.
+#include "job.h"
 
-#include "atomic_file.h"
-#include "core/csr_lists.h"
-#include "core/order_statistics.h"
-#include "mesh_writer.h"
 #include "stored_cloud.h"
 
 #include <nlohmann/json.hpp>
@@ -33,7 +31,6 @@ tileName (std::size_t tile)
   return "tile." + std::to_string (tile) + ".ply";
 }
 
-// The tile that owns each vertex.
 std::vector<std::uint32_t>
 findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, FolderStore& store,
             const Plan& plan)
@@ -112,9 +109,9 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
       const auto& [a, b, c] = triangles[t];
       local.push_back ({place_of[a], place_of[b], place_of[c]});
     }
-    Cloud part = copyRows (cloud, rows, {{VERTEX_NUMBER, ScalarType::FLOAT64}});
-    setValues<double> (*part.find (VERTEX_NUMBER), 0, rows.size (),
-                       [&vertices] (std::size_t i) { return static_cast<double> (vertices[i]); });
+    Cloud part = copyRows (cloud, rows);
+    replaceColumns ({VERTEX_NUMBER}, ScalarType::FLOAT64,
+                    std::vector<double> (vertices.begin (), vertices.end ()), part.fields);
 
     const std::filesystem::path path = folder / tileName (tile);
     AtomicFile file (path);

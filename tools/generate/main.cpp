@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 #include <string>
 #include <vector>
@@ -52,10 +53,8 @@ main (int argc, char** argv)
       "pcl_floater_generate"};
   std::string name, path;
   SurfaceSpec spec;
-  std::vector<std::string> names;
-  for (const SurfaceKind kind : surfaceKinds ())
-    names.emplace_back (surfaceName (kind));
-  app.add_option ("surface", name, "kind of surface")->required ()->check (CLI::IsMember (names));
+  const std::map<std::string, SurfaceKind> kinds (SURFACES.begin (), SURFACES.end ());
+  app.add_option ("surface", name, "kind of surface")->required ()->check (CLI::IsMember (kinds));
   app.add_option ("output", path, "file to write, .pcd or .ply")->required ();
   app.add_option ("--points", spec.points, "number of points")
       ->capture_default_str ()
@@ -87,9 +86,7 @@ main (int argc, char** argv)
   const std::string extension = std::filesystem::path (path).extension ().string ();
   if (extension != ".pcd" && extension != ".ply")
     return fail (USAGE, "'" + path + "' must end in .pcd or .ply");
-  for (const SurfaceKind kind : surfaceKinds ())
-    if (name == surfaceName (kind))
-      spec.kind = kind;
+  spec.kind = kinds.at (name);
   if (const std::string error = surfaceSpecError (spec); !error.empty ())
     return fail (USAGE, error);
 

@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaces.h"
 
-#include "random_stream.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -190,39 +186,24 @@ chartOf (const SurfaceSpec& spec)
   throw std::invalid_argument ("unknown kind of surface");
 }
 
-// Density that falls exponentially along s: s as a function of the fraction f of the points before
-// it, with its derivative.
-class Grading
+// Density that falls exponentially along s, or there and back: s as a function of the fraction f of
+// the points before it, with its derivative.
+std::pair<double, double>
+graded (double f, double log_ratio, bool there_and_back)
 {
-public:
-  Grading (double ratio, bool there_and_back)
-      : log_ratio_ (std::log (ratio)), there_and_back_ (there_and_back)
-  {
-  }
-
-  std::pair<double, double> operator() (double f) const
-  {
-    if (!(log_ratio_ > 0.0))
-      return {f, 1.0};
-    if (!there_and_back_)
-      return oneWay (f);
+  if (!(log_ratio > 0.0))
+    return {f, 1.0};
+  if (there_and_back) {
     const double turn = std::floor (f), g = 2.0 * (f - turn) - 1.0;
-    const auto [s, slope] = oneWay (std::abs (g));
+    const auto [s, slope] = graded (std::abs (g), log_ratio, false);
     return {turn + 0.5 + 0.5 * std::copysign (s, g), slope};
   }
+  const double share = -std::expm1 (-log_ratio); // density proportional to exp (-log_ratio * s)
+  const double left = 1.0 - f * share;
+  return {-std::log (left) / log_ratio, share / (left * log_ratio)};
+}
 
-private:
-  // Density proportional to exp (-log_ratio_ * s).
-  std::pair<double, double> oneWay (double f) const
-  {
-    const double share = -std::expm1 (-log_ratio_);
-    const double left = 1.0 - f * share;
-    return {-std::log (left) / log_ratio_, share / (left * log_ratio_)};
-  }
-
-  double log_ratio_;
-  bool there_and_back_;
-};
+using Grading = std::function<std::pair<double, double> (double f)>;
 
 // Fraction of the sampled points that are not in holes, from the midpoints of a fine grid.
 double
@@ -275,39 +256,6 @@ ringRotation (std::size_t n)
 
 } // namespace
 
-const std::vector<SurfaceKind>&
-surfaceKinds ()
-{
-  static const std::vector<SurfaceKind> kinds{SurfaceKind::HEIGHT_FIELD, SurfaceKind::HEMISPHERE,
-                                              SurfaceKind::FINGER,       SurfaceKind::FOLDED_SHEET,
-                                              SurfaceKind::CUT_OUT,      SurfaceKind::SPHERE,
-                                              SurfaceKind::TORUS};
-  return kinds;
-}
-
-const char*
-surfaceName (SurfaceKind kind)
-{
-  constexpr std::array<const char*, 7> NAMES{"height-field", "hemisphere", "finger", "folded-sheet",
-                                             "cut-out",      "sphere",     "torus"};
-  return NAMES[static_cast<std::size_t> (kind)];
-}
-
-int
-boundaryLoops (const SurfaceSpec& spec)
-{
-  if (spec.kind == SurfaceKind::CUT_OUT)
-    return 1 + spec.holes;
-  return spec.kind == SurfaceKind::SPHERE || spec.kind == SurfaceKind::TORUS ? 0 : 1;
-}
-
-int
-eulerCharacteristic (const SurfaceSpec& spec)
-{
-  const int handles = spec.kind == SurfaceKind::TORUS ? 1 : 0;
-  return 2 - 2 * handles - boundaryLoops (spec);
-}
-
 std::string
 surfaceSpecError (const SurfaceSpec& spec)
 {
@@ -343,7 +291,8 @@ generateSurface (const SurfaceSpec& spec)
   if (const std::string error = surfaceSpecError (spec); !error.empty ())
     throw std::invalid_argument (error);
   const Chart chart = chartOf (spec);
-  const Grading grading (spec.density_ratio, chart.ring);
+  const Grading grading = [log_ratio = std::log (spec.density_ratio),
+                           ring = chart.ring] (double f) { return graded (f, log_ratio, ring); };
   const double lattice = static_cast<double> (spec.points) / shareInside (chart, grading);
   const double rotation = chart.ring ? ringRotation (spec.points) : GOLDEN;
   const double jitter = chart.ring ? RING_JITTER : JITTER;

@@ -5,12 +5,42 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
+/// Random numbers that are the same with every standard library, unlike its distributions.
+class RandomStream
+{
+public:
+  explicit RandomStream (std::uint64_t seed) : engine_ (seed) {}
+
+  /// Uniformly distributed in [0, 1).
+  double uniform () { return static_cast<double> (engine_ () >> 11) * 0x1.0p-53; }
+
+  /// An integer, uniformly distributed in [0, n); n far below 2^53.
+  std::size_t below (std::size_t n)
+  {
+    return static_cast<std::size_t> (uniform () * static_cast<double> (n));
+  }
+
+  /// Normally distributed with mean 0 and standard deviation 1 (Box and Muller).
+  double normal ()
+  {
+    const double radius = std::sqrt (-2.0 * std::log1p (-uniform ()));
+    return radius * std::cos (2.0 * 3.14159265358979323846 * uniform ());
+  }
+
+private:
+  std::mt19937_64 engine_;
+};
+
 enum class SurfaceKind
 {
   HEIGHT_FIELD, ///< square of rolling terrain, sampled evenly in plan view: a disc
@@ -41,21 +71,15 @@ struct SurfaceSpec
 /// Fewest points of a surface.
 constexpr std::size_t MIN_SURFACE_POINTS = 50;
 
-/// Name of a kind, as on the command line ("height-field").
-const char*
-surfaceName (SurfaceKind kind);
-
-/// All kinds of surface.
-const std::vector<SurfaceKind>&
-surfaceKinds ();
-
-/// Number of boundary loops: 0 if the surface is closed, 1 for a disc, more for the cut-out sheet.
-int
-boundaryLoops (const SurfaceSpec& spec);
-
-/// Euler characteristic of the surface.
-int
-eulerCharacteristic (const SurfaceSpec& spec);
+/// All kinds of surface, with their names on the command line.
+constexpr std::array<std::pair<const char*, SurfaceKind>, 7> SURFACES{
+    {{"height-field", SurfaceKind::HEIGHT_FIELD},
+     {"hemisphere", SurfaceKind::HEMISPHERE},
+     {"finger", SurfaceKind::FINGER},
+     {"folded-sheet", SurfaceKind::FOLDED_SHEET},
+     {"cut-out", SurfaceKind::CUT_OUT},
+     {"sphere", SurfaceKind::SPHERE},
+     {"torus", SurfaceKind::TORUS}}};
 
 /// The error in a specification, in one sentence; empty if there is none.
 std::string

@@ -3,20 +3,17 @@
 #include "atomic_file.h"
 
 #include "cloud.h"
-#include "file_bytes.h"
 #include "format.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 
 namespace pcl::floater {
 namespace {
@@ -82,17 +79,6 @@ forget (std::size_t slot)
 
 /// \return 0, or the number of the error
 int
-sync (int descriptor)
-{
-  int synced = -1;
-  do
-    synced = ::fsync (descriptor);
-  while (synced != 0 && errno == EINTR);
-  return synced != 0 && errno != EINVAL ? errno : 0;
-}
-
-/// \return 0, or the number of the error
-int
 writeAll (int descriptor, std::string_view bytes)
 {
   while (!bytes.empty ()) {
@@ -114,7 +100,6 @@ failOn (const std::filesystem::path& path, const std::string& cause)
       cause);
 }
 
-/// The path with all symbolic links resolved.
 std::filesystem::path
 resolve (const std::filesystem::path& path)
 {
@@ -133,17 +118,6 @@ folderOf (const std::filesystem::path& path)
 }
 
 } // namespace
-
-void
-syncFile (const std::filesystem::path& path)
-{
-  const int descriptor = ::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  int error = descriptor < 0 ? errno : sync (descriptor);
-  if (descriptor >= 0 && ::close (descriptor) != 0 && error == 0)
-    error = errno;
-  if (error != 0)
-    failOn (path, std::strerror (error));
-}
 
 void
 requireWritable (const std::filesystem::path& path)
@@ -231,21 +205,18 @@ AtomicFile::~AtomicFile ()
 }
 
 void
-AtomicFile::write (const void* bytes, std::size_t size)
+AtomicFile::write (std::string_view bytes)
 {
-  // The address of an array without elements may be null, which memcpy does not allow.
-  if (size == 0)
-    return;
-  if (used_ + size > buffer_.size ())
+  if (bytes.size () > buffer_.size ()) {
     flush ();
-  if (size > buffer_.size ()) {
-    if (const int error = writeAll (descriptor_, {static_cast<const char*> (bytes), size}))
+    if (const int error = writeAll (descriptor_, bytes))
       fail (error);
-    written_ += size;
-    return;
+    written_ += bytes.size ();
   }
-  std::memcpy (buffer_.data () + used_, bytes, size);
-  used_ += size;
+  else {
+    bytes.copy (room (bytes.size ()), bytes.size ());
+    used_ += bytes.size ();
+  }
 }
 
 void
@@ -258,12 +229,16 @@ AtomicFile::flush ()
 }
 
 void
-AtomicFile::close (bool syncs)
+AtomicFile::close ()
 {
   flush ();
   // Some file systems report a full disk only here.
-  if (const int error = syncs ? sync (descriptor_) : 0)
-    fail (error);
+  int synced = -1;
+  do
+    synced = ::fsync (descriptor_);
+  while (synced != 0 && errno == EINTR);
+  if (synced != 0 && errno != EINVAL)
+    fail (errno);
   struct stat status = {};
   if (::fstat (descriptor_, &status) != 0)
     fail (errno);

@@ -3,7 +3,7 @@
 // A file that appears only when it is complete.
 #pragma once
 
-#include "byte_order.h"
+#include "file_bytes.h"
 
 #include <charconv>
 #include <deque>
@@ -16,9 +16,8 @@
 
 namespace pcl::floater {
 /// A file cannot be written. The message names the file and the cause.
-class WriteError : public std::runtime_error
+struct WriteError : std::runtime_error
 {
-public:
   using std::runtime_error::runtime_error;
 };
 
@@ -27,11 +26,6 @@ public:
 /// something other than a regular file. "-" is the standard output, which must be no terminal
 void
 requireWritable (const std::filesystem::path& path);
-
-/// Waits until the bytes of a file are on the disk.
-/// \throws WriteError if they do not get there
-void
-syncFile (const std::filesystem::path& path);
 
 /// Installs signal handlers: the signals by which users, shells and schedulers end a program, and
 /// SIGPIPE, do so without leaving temporary files, and a limit on file sizes makes a write fail.
@@ -54,9 +48,7 @@ public:
   AtomicFile (const AtomicFile&) = delete;
   AtomicFile& operator= (const AtomicFile&) = delete;
 
-  void write (const void* bytes, std::size_t size);
-
-  void write (std::string_view text) { write (text.data (), text.size ()); }
+  void write (std::string_view bytes);
 
   /// Appends a number in the byte order of the file.
   template <typename T>
@@ -73,9 +65,8 @@ public:
     (printOne (parts), ...);
   }
 
-  /// Writes all bytes and checks that they arrived.
-  /// \param syncs whether to wait until they are on the disk; else see syncFile
-  void close (bool syncs = true);
+  /// Writes all bytes and checks that they arrived on the disk.
+  void close ();
 
   /// Gives the closed file its final name, which makes it visible, or copies it to the standard
   /// output.

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud.h"
 
-#include "format.h"
 #include "text_scanner.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -322,7 +320,7 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 }
 
 Cloud
-copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows, const std::vector<Field>& added)
+copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows)
 {
   Cloud copied;
   copied.coordinates = cloud.coordinates;
@@ -330,18 +328,13 @@ copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows, const std::v
   copied.shift = cloud.shift;
   copied.sensor_origin = cloud.sensor_origin;
   copied.rows = rows.size ();
-  for (const Field& field : cloud.fields)
-    if (std::none_of (added.begin (), added.end (),
-                      [&field] (const Field& other) { return other.name == field.name; }))
-      copied.fields.push_back (field);
-  const std::vector<Field> sources (copied.fields);
-  copied.fields.insert (copied.fields.end (), added.begin (), added.end ());
+  copied.fields = cloud.fields;
   allocateRows (allFields (copied), rows.size ());
   const auto rowOf = [&rows] (std::size_t i) { return rows[i]; };
   for (std::size_t axis = 0; axis < 3; ++axis)
     copyValues (cloud.coordinates[axis], rows.size (), rowOf, copied.coordinates[axis]);
-  for (std::size_t f = 0; f < sources.size (); ++f)
-    copyValues (sources[f], rows.size (), rowOf, copied.fields[f]);
+  for (std::size_t f = 0; f < cloud.fields.size (); ++f)
+    copyValues (cloud.fields[f], rows.size (), rowOf, copied.fields[f]);
   return copied;
 }
 

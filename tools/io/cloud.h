@@ -3,7 +3,6 @@
 // A point cloud with all fields of its file.
 #pragma once
 
-#include "byte_order.h"
 #include "file_bytes.h"
 
 #include <Eigen/Core>
@@ -19,14 +18,14 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace pcl::floater {
 /// A file cannot be used as input. The message names the cause, not the file.
-class ReadError : public std::runtime_error
+struct ReadError : std::runtime_error
 {
-public:
   using std::runtime_error::runtime_error;
 };
 
@@ -44,34 +43,19 @@ enum class ScalarType
   FLOAT64
 };
 
+/// The C++ types in the order of ScalarType.
+using ScalarTypes = std::tuple<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                               std::uint32_t, std::int64_t, std::uint64_t, float, double>;
+
 /// Calls visitor (T{}) with the C++ type T of `type`, and returns its result.
-template <typename Visitor>
+template <std::size_t First = 0, typename Visitor>
 auto
 visitType (ScalarType type, Visitor&& visitor)
 {
-  switch (type) {
-  case ScalarType::INT8:
-    return visitor (std::int8_t{});
-  case ScalarType::UINT8:
-    return visitor (std::uint8_t{});
-  case ScalarType::INT16:
-    return visitor (std::int16_t{});
-  case ScalarType::UINT16:
-    return visitor (std::uint16_t{});
-  case ScalarType::INT32:
-    return visitor (std::int32_t{});
-  case ScalarType::UINT32:
-    return visitor (std::uint32_t{});
-  case ScalarType::INT64:
-    return visitor (std::int64_t{});
-  case ScalarType::UINT64:
-    return visitor (std::uint64_t{});
-  case ScalarType::FLOAT32:
-    return visitor (float{});
-  case ScalarType::FLOAT64:
-    break;
-  }
-  return visitor (double{});
+  if constexpr (First + 1 < std::tuple_size_v<ScalarTypes>)
+    if (static_cast<std::size_t> (type) != First)
+      return visitType<First + 1> (type, visitor);
+  return visitor (std::tuple_element_t<First, ScalarTypes>{});
 }
 
 inline std::size_t
@@ -328,13 +312,23 @@ leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows);
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
 
+/// Adds fields like addColumns, in place of those that have their names.
+template <typename Values>
+void
+replaceColumns (std::initializer_list<const char*> names, ScalarType type, Values values,
+                std::vector<Field>& fields)
+{
+  const auto isNamed = [&names] (const Field& field) {
+    return std::find (names.begin (), names.end (), field.name) != names.end ();
+  };
+  fields.erase (std::remove_if (fields.begin (), fields.end (), isNamed), fields.end ());
+  addColumns (names, type, std::move (values), fields);
+}
+
 /// A cloud of some rows of another one, in any order, each as often as it is named; all of them are
 /// kept. Coordinates, shift and all fields are copied. O(rows).
-/// \param added fields of one value that come after those of the cloud; setValues gives them their
-/// values. A field of the cloud that has the name of one of them is left out
 Cloud
-copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows,
-          const std::vector<Field>& added);
+copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows);
 
 /// Sets values of a field of which allocateRows has made the rows, from row `first` on.
 /// \tparam T the C++ type of the field

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_reader.h"
 
-#include "format.h"
 #include "text_scanner.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -14,14 +12,10 @@ namespace pcl::floater {
 CloudFormat
 cloudFormatOf (const std::filesystem::path& path)
 {
-  const std::string extension = lowerExtension (path);
-  for (const auto& [name, format] : CLOUD_FORMATS)
-    if (extension == "." + std::string (name))
-      return format;
   for (const char* text : {".txt", ".csv", ".asc", ".pwn"})
-    if (extension == text)
+    if (lowerExtension (path) == text)
       return parseXyz;
-  return nullptr;
+  return formatOf (path, CLOUD_FORMATS);
 }
 
 void

@@ -9,11 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <mutex>
 #include <string>
 
@@ -43,35 +41,16 @@ struct FileBytes::Holder
   {
     if (descriptor < 0 || ::fstat (descriptor, &status) != 0)
       failOnErrno ();
-  }
-
-  ~Holder ()
-  {
-    if (mapped != nullptr) {
-      const std::lock_guard<std::mutex> lock (ranges_mutex);
-      for (MappedRange& range : mapped_ranges)
-        if (range.first == reinterpret_cast<std::uintptr_t> (mapped))
-          range.first = range.last = 0;
-      ::munmap (mapped, mapped_size);
-    }
-    if (descriptor >= 0)
-      ::close (descriptor);
-  }
-  Holder (const Holder&) = delete;
-  Holder& operator= (const Holder&) = delete;
-
-  bool map ()
-  {
     const auto size = static_cast<std::size_t> (status.st_size);
-    if (!S_ISREG (status.st_mode) || size == 0)
-      return false;
-    void* const at = ::mmap (nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    if (at == MAP_FAILED)
-      return false;
-    mapped = at;
-    mapped_size = size;
-    ::madvise (mapped, mapped_size, MADV_SEQUENTIAL);
-    const auto first = reinterpret_cast<std::uintptr_t> (mapped);
+    void* at = MAP_FAILED;
+    if (S_ISREG (status.st_mode) && size > 0)
+      at = ::mmap (nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    is_mapped = at != MAP_FAILED;
+    if (!is_mapped)
+      return;
+    bytes = {static_cast<const char*> (at), size};
+    ::madvise (at, size, MADV_SEQUENTIAL);
+    const auto first = reinterpret_cast<std::uintptr_t> (at);
     const std::lock_guard<std::mutex> lock (ranges_mutex);
     for (MappedRange& range : mapped_ranges) {
       std::uintptr_t free = 0;
@@ -80,8 +59,22 @@ struct FileBytes::Holder
         break;
       }
     }
-    return true;
   }
+
+  ~Holder ()
+  {
+    if (is_mapped) {
+      const std::lock_guard<std::mutex> lock (ranges_mutex);
+      for (MappedRange& range : mapped_ranges)
+        if (range.first == reinterpret_cast<std::uintptr_t> (bytes.data ()))
+          range.first = range.last = 0;
+      ::munmap (const_cast<char*> (bytes.data ()), bytes.size ());
+    }
+    if (descriptor >= 0)
+      ::close (descriptor);
+  }
+  Holder (const Holder&) = delete;
+  Holder& operator= (const Holder&) = delete;
 
   void readAll ()
   {
@@ -98,13 +91,14 @@ struct FileBytes::Holder
       used += static_cast<std::size_t> (std::max<ssize_t> (got, 0));
     }
     own.resize (used);
+    bytes = own;
   }
 
   int descriptor = -1;
   struct stat status = {}; // as it was when the file was opened
-  void* mapped = nullptr;
-  std::size_t mapped_size = 0;
-  std::string own;
+  bool is_mapped = false;
+  std::string own;        // if it is not mapped
+  std::string_view bytes; // either
 };
 
 FileBytes::FileBytes (const std::filesystem::path& path)
@@ -130,20 +124,10 @@ void
 FileBytes::take (int descriptor)
 {
   const auto holder = std::make_shared<Holder> (descriptor);
-  if (holder->map ())
-    bytes_ = {static_cast<const char*> (holder->mapped), holder->mapped_size};
-  else {
+  if (!holder->is_mapped)
     holder->readAll ();
-    bytes_ = holder->own;
-  }
   holder_ = holder;
-}
-
-void
-FileBytes::giveBack () const
-{
-  if (holder_ && holder_->mapped != nullptr)
-    ::madvise (holder_->mapped, holder_->mapped_size, MADV_DONTNEED);
+  bytes_ = holder->bytes;
 }
 
 void
@@ -159,7 +143,7 @@ giveBackMappedFiles ()
 bool
 FileBytes::hasChanged () const
 {
-  if (!holder_ || holder_->mapped == nullptr)
+  if (!holder_ || !holder_->is_mapped)
     return false;
   struct stat now = {};
   return ::fstat (holder_->descriptor, &now) != 0 || now.st_size != holder_->status.st_size ||

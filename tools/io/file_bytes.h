@@ -1,14 +1,47 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bytes of a file, without a copy where possible.
+// The bytes of a file, without a copy where possible, and numbers in its byte order.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string_view>
 
 namespace pcl::floater {
+enum class ByteOrder
+{
+  LITTLE,
+  BIG
+};
+
+constexpr ByteOrder HOST_BYTE_ORDER =
+    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? ByteOrder::LITTLE : ByteOrder::BIG;
+
+/// Copies a number from the byte order of a file to that of this machine, or the other way.
+template <typename T>
+inline void
+copyNumber (void* to, const void* from, ByteOrder order)
+{
+  std::array<char, sizeof (T)> bytes{};
+  std::memcpy (bytes.data (), from, sizeof (T));
+  if (order != HOST_BYTE_ORDER)
+    std::reverse (bytes.begin (), bytes.end ());
+  std::memcpy (to, bytes.data (), sizeof (T));
+}
+
+template <typename T>
+inline T
+readNumber (const void* from, ByteOrder order)
+{
+  T number;
+  copyNumber<T> (&number, from, order);
+  return number;
+}
+
 /// The bytes of a file. A regular file is mapped, so that the system can take its pages out of
 /// memory again; a pipe is read. Copies share the bytes.
 ///
@@ -38,10 +71,6 @@ public:
     return {holder_, bytes_.data () + offset};
   }
 
-  /// Gives the memory of a mapped file back. Bytes that are used again are read from the file
-  /// again.
-  void giveBack () const;
-
   /// Whether a mapped file has been written to since it was opened.
   bool hasChanged () const;
 
@@ -55,7 +84,8 @@ private:
   std::string_view bytes_;
 };
 
-/// Calls giveBack () for all mapped files. May be called by any thread.
+/// Gives the memory of all mapped files back. Bytes that are used again are read from the files
+/// again. May be called by any thread.
 void
 giveBackMappedFiles ();
 

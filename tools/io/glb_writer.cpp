@@ -35,13 +35,6 @@ unitNormal (const FieldTriple& fields, std::size_t row)
   return normal.cast<float> ();
 }
 
-void
-writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
-{
-  for (const float coordinate : vector)
-    file.writeNumber (coordinate, ByteOrder::LITTLE);
-}
-
 } // namespace
 
 void

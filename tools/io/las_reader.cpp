@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ASPRS LAS 1.0 to 1.4, from its specification (LAS Specification 1.4 - R15, 2019).
-#include "byte_order.h"
 #include "cloud_reader.h"
-#include "format.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pcl::floater {
@@ -114,7 +111,6 @@ readHeader (std::string_view bytes)
   return header;
 }
 
-/// Whether any of the three channels of any point is not black.
 bool
 hasColors (std::string_view bytes, const LasHeader& header)
 {

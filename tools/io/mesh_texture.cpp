@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_texture.h"
 
-#include "cloud.h"
-
 #include <lodepng.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <new>
-#include <string>
 
 namespace pcl::floater {
 std::string
@@ -85,7 +80,7 @@ doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangl
   std::vector<std::size_t> rows (points);
   for (std::size_t p = 0; p < points; ++p)
     rows[p] = cloud.row (p);
-  std::vector<float> s (points, -1.0F), t (points, -1.0F);
+  std::vector<Eigen::Vector2f> places (points, Eigen::Vector2f (-1.0F, -1.0F));
   std::vector<std::uint32_t> number (texture.coordinates.size (), NONE); // of each coordinate
   for (std::size_t c = 0; c < number.size (); ++c) {
     const std::uint32_t point = texture.points[c];
@@ -94,23 +89,16 @@ doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangl
     else {
       number[c] = static_cast<std::uint32_t> (rows.size ());
       rows.push_back (rows[point]);
-      s.push_back (0.0F);
-      t.push_back (0.0F);
+      places.emplace_back ();
     }
-    s[number[c]] = texture.coordinates[c].x ();
-    t[number[c]] = texture.coordinates[c].y ();
+    places[number[c]] = texture.coordinates[c];
   }
   for (std::size_t i = 0; i < triangles.size (); ++i)
     for (std::size_t corner = 0; corner < 3; ++corner)
       triangles[i][corner] = number[texture.corners[i][corner]];
 
-  std::vector<Field> added (2); // of type FLOAT32
-  added[0].name = "s";
-  added[1].name = "t";
-  Cloud doubled = copyRows (cloud, rows, added);
-  for (const auto& [name, values] : {std::pair ("s", &s), std::pair ("t", &t)})
-    setValues<float> (*doubled.find (name), 0, values->size (),
-                      [values = values] (std::size_t i) { return (*values)[i]; });
+  Cloud doubled = copyRows (cloud, rows);
+  replaceColumns ({"s", "t"}, ScalarType::FLOAT32, std::move (places), doubled.fields);
   return doubled;
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "cloud.h"
-#include "file_bytes.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
 

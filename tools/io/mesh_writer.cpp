@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_writer.h"
 
-#include "format.h"
-
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace pcl::floater {
 namespace {
@@ -37,25 +33,16 @@ printNormal (AtomicFile& file, const FieldTriple& fields, std::size_t row)
   });
 }
 
-/// Each coordinate after a blank, with as many digits as tell it from its neighbours.
+/// Calls write (coordinate) with the coordinates of a point as floats or doubles, as they are written.
+template <typename Write>
 void
-printPosition (AtomicFile& file, const Cloud& cloud, std::size_t point)
+forCoordinates (const Cloud& cloud, std::size_t point, const Write& write)
 {
   for (const double coordinate : cloud.position (point))
     if (cloud.single_precision)
-      file.print (" ", static_cast<float> (coordinate));
+      write (static_cast<float> (coordinate));
     else
-      file.print (" ", coordinate);
-}
-
-void
-writePosition (AtomicFile& file, const Cloud& cloud, std::size_t point, ByteOrder order)
-{
-  for (const double coordinate : cloud.position (point))
-    if (cloud.single_precision)
-      file.writeNumber (static_cast<float> (coordinate), order);
-    else
-      file.writeNumber (coordinate, order);
+      write (coordinate);
 }
 
 /// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
@@ -70,7 +57,7 @@ writeObj (AtomicFile& file, const std::filesystem::path& path, const Cloud& clou
     file.print ("mtllib ", materialsBeside (path).filename ().string (), "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.print ("v");
-    printPosition (file, cloud, i);
+    forCoordinates (cloud, i, [&file] (auto number) { file.print (" ", number); });
     if (colors[0])
       for (const Field* channel : colors)
         file.print (" ",
@@ -112,7 +99,7 @@ writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   file.print (colors[0] ? "C" : "", normals[0] ? "N" : "", "OFF\n# ", COMMENT, "\n",
               shiftLine ("# shift ", cloud), cloud.size (), " ", triangles.size (), " 0\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
-    printPosition (file, cloud, i);
+    forCoordinates (cloud, i, [&file] (auto number) { file.print (" ", number); });
     if (normals[0])
       printNormal (file, normals, cloud.row (i));
     if (colors[0]) {
@@ -138,8 +125,7 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   for (const auto& [a, b, c] : triangles) {
     const Eigen::Vector3d p = cloud.position (a), q = cloud.position (b), r = cloud.position (c);
     for (const Eigen::Vector3d& vector : {(q - p).cross (r - p).normalized ().eval (), p, q, r})
-      for (const double value : vector)
-        file.writeNumber (static_cast<float> (value), ByteOrder::LITTLE);
+      writeVector (file, vector.cast<float> ());
     file.writeNumber (std::uint16_t{0}, ByteOrder::LITTLE);
   }
 }
@@ -156,15 +142,13 @@ encodeName (const std::string& name)
     if (c > ' ' && c <= '~' && c != '%' && c != '"')
       encoded += c;
     else {
-      std::array<char, 4> code{};
-      std::snprintf (code.data (), code.size (), "%%%02X", static_cast<unsigned char> (c));
-      encoded += code.data ();
+      const auto code = static_cast<unsigned char> (c);
+      encoded += {'%', "0123456789ABCDEF"[code >> 4U], "0123456789ABCDEF"[code & 15U]};
     }
   }
   return encoded;
 }
 
-/// The values of fields of one type, point by point.
 template <std::size_t N>
 void
 writeValues (AtomicFile& file, const std::array<const Field*, N>& fields, const Cloud& cloud)
@@ -189,7 +173,7 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool
               "\nBINARY\nDATASET POLYDATA\nPOINTS ", cloud.size (),
               cloud.single_precision ? " float\n" : " double\n");
   for (std::size_t i = 0; i < cloud.size (); ++i)
-    writePosition (file, cloud, i, ByteOrder::BIG);
+    forCoordinates (cloud, i, [&file] (auto number) { file.writeNumber (number, ByteOrder::BIG); });
   file.print ("\nPOLYGONS ", triangles.size (), " ", 4 * triangles.size (), "\n");
   for (const auto& [a, b, c] : triangles)
     for (const std::uint32_t number : {std::uint32_t{3}, a, b, c})
@@ -257,7 +241,8 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   file.print ("element face ", triangles.size (),
               "\nproperty list uchar int vertex_indices\nend_header\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
-    writePosition (file, cloud, i, ByteOrder::LITTLE);
+    forCoordinates (cloud, i,
+                    [&file] (auto number) { file.writeNumber (number, ByteOrder::LITTLE); });
     for (const Field& field : cloud.fields)
       visitType (field.type, [&] (auto value) {
         for (std::size_t c = 0; c < field.count; ++c) {
@@ -278,16 +263,6 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 }
 
 } // namespace
-
-std::optional<MeshFormat>
-meshFormatOf (const std::filesystem::path& path)
-{
-  const std::string extension = lowerExtension (path);
-  for (const auto& [name, format] : MESH_FORMATS)
-    if (extension == "." + std::string (name))
-      return format;
-  return std::nullopt;
-}
 
 std::size_t
 countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)

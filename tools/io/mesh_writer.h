@@ -4,7 +4,7 @@
 #pragma once
 
 #include "atomic_file.h"
-#include "cloud.h"
+#include "format.h"
 #include "mesh_texture.h"
 
 #include <array>
@@ -35,8 +35,11 @@ constexpr std::array<std::pair<const char*, std::optional<MeshFormat>>, 7> MESH_
 constexpr const char* MESH_EXTENSIONS = ".vtk, .ply, .obj, .stl, .off or .glb";
 
 /// The format that the extension of a file tells, in upper or lower case.
-std::optional<MeshFormat>
-meshFormatOf (const std::filesystem::path& path);
+inline std::optional<MeshFormat>
+meshFormatOf (const std::filesystem::path& path)
+{
+  return formatOf (path, MESH_FORMATS);
+}
 
 /// Writes the mesh. All coordinates must be finite. All formats but STL tell the shift in a
 /// comment. As far as the format allows, vertex k is point k of the cloud with all its fields, and
@@ -51,6 +54,14 @@ std::vector<std::string>
 writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
            const Triangles& triangles, MeshFormat format,
            const TextureCoordinates* texture = nullptr);
+
+/// The coordinates, little endian.
+inline void
+writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
+{
+  for (const float coordinate : vector)
+    file.writeNumber (coordinate, ByteOrder::LITTLE);
+}
 
 /// Number of triangles of which 32-bit floats make two corners one: readers may merge those.
 std::size_t

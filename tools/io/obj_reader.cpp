@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
-#include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace pcl::floater {
 namespace {
-/// The next word of a line, which a backslash at its end continues; empty behind the last one.
+/// The next word of a line, which a backslash at its end continues; empty behind the last one, and
+/// at a comment.
 std::string_view
 nextWord (TextScanner& scanner)
 {
   for (;;) {
     std::string_view word = scanner.word ();
-    if (word.empty () || word.back () != '\\' || word.front () == '#' || scanner.hasWord ())
+    if (word.empty () || word.front () == '#')
+      return {};
+    if (word.back () != '\\' || scanner.hasWord ())
       return word;
     word.remove_suffix (1);
     if (!scanner.nextLine () || !word.empty ())
@@ -24,21 +24,11 @@ nextWord (TextScanner& scanner)
   }
 }
 
-/// The same; empty also at a comment.
-std::string_view
-nextValue (TextScanner& scanner)
-{
-  const std::string_view word = nextWord (scanner);
-  return !word.empty () && word.front () == '#' ? std::string_view () : word;
-}
-
-/// Reads the numbers in the rest of the line.
-/// \return how many
 std::size_t
 readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
 {
   std::size_t count = 0;
-  for (auto word = nextValue (scanner); !word.empty (); word = nextValue (scanner)) {
+  for (auto word = nextWord (scanner); !word.empty (); word = nextWord (scanner)) {
     if (count == numbers.size ())
       scanner.fail ("it has more than " + std::to_string (numbers.size ()) + " numbers");
     if (!parseNumber (word, numbers[count++]))
@@ -75,7 +65,7 @@ void
 readFace (TextScanner& scanner, std::size_t points, std::size_t normals, ObjFaces& faces)
 {
   ++faces.count;
-  for (auto corner = nextValue (scanner); !corner.empty (); corner = nextValue (scanner)) {
+  for (auto corner = nextWord (scanner); !corner.empty (); corner = nextWord (scanner)) {
     const std::optional<std::size_t> point = takeIndex (scanner, corner, points);
     takeIndex (scanner, corner, 0); // of a texture
     const std::optional<std::size_t> normal = takeIndex (scanner, corner, normals);
@@ -155,8 +145,8 @@ parseObj (const FileBytes& file, const ReadOptions& /*options*/)
     }
     else if (key == "f")
       readFace (scanner, coordinates.size () / 3, normals.size () / 3, faces);
-    else if (!key.empty () && key.front () != '#') // a line that is passed over may go on, too
-      while (!nextValue (scanner).empty ()) {}
+    else if (!key.empty ()) // a line that is passed over may go on, too
+      while (!nextWord (scanner).empty ()) {}
   }
   if (coordinates.empty ())
     throw ReadError ("it has no points");

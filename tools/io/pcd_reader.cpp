@@ -1,18 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "byte_order.h"
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
 #ifdef PCL_FLOATER_HAS_LZF
 #include <lzf.h>
 #endif
 
-#include <algorithm>
 #include <limits>
-#include <optional>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -20,7 +15,6 @@ const std::string PADDING = "_";
 
 struct PcdHeader
 {
-  // The lines, and what they are together.
   std::vector<std::string> names, types;
   std::vector<std::uint32_t> sizes, counts;
   std::optional<std::size_t> width, height, points_told;

@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "byte_order.h"
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
-
-#include <optional>
 
 namespace pcl::floater {
 namespace {

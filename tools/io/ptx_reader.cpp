@@ -4,7 +4,6 @@
 // the place and the axes of the scanner, a matrix that takes a row (x y z 1) to the common frame, and
 // a line for each pixel, column by column: x y z intensity, and red green blue if there are colours.
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
 #include <Eigen/Geometry>
@@ -23,8 +22,6 @@ struct PtxPixels
   std::vector<bool> lack_return;
 };
 
-/// The numbers of the next line.
-/// \throws ReadError if there are fewer
 template <std::size_t N>
 std::array<double, N>
 readLine (TextScanner& scanner)

@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "byte_order.h"
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
-#include <algorithm>
 #include <numeric>
-#include <string_view>
 
 namespace pcl::floater {
 namespace {
@@ -33,14 +29,13 @@ cloudOf (std::vector<std::array<Number, 3>> corners)
   std::sort (order.begin (), order.end (), [&bytesOf] (std::size_t a, std::size_t b) {
     return std::pair (bytesOf (a), a) < std::pair (bytesOf (b), b);
   });
-  const auto areEqual = [&bytesOf] (std::size_t a, std::size_t b) {
-    return bytesOf (a) == bytesOf (b);
-  };
-  order.erase (std::unique (order.begin (), order.end (), areEqual), order.end ());
-  std::sort (order.begin (), order.end ());
+  std::vector<bool> repeats (corners.size (), false); // one before
+  for (std::size_t i = 1; i < order.size (); ++i)
+    repeats[order[i]] = bytesOf (order[i]) == bytesOf (order[i - 1]);
   std::vector<Corner> points;
-  for (const std::size_t corner : order)
-    points.push_back (corners[corner]);
+  for (std::size_t corner = 0; corner < corners.size (); ++corner)
+    if (!repeats[corner])
+      points.push_back (corners[corner]);
   const std::size_t size = points.size ();
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, sizeof (Number) == 4 ? ScalarType::FLOAT32 : ScalarType::FLOAT64,

@@ -3,9 +3,7 @@
 #include "table_head.h"
 
 #include "cloud_reader.h"
-#include "format.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace pcl::floater {

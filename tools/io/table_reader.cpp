@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text with one point in each line.
 #include "cloud_reader.h"
-#include "format.h"
 #include "table_head.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace pcl::floater {
 namespace {
@@ -22,7 +18,6 @@ countDigits (std::string_view word)
   return digits;
 }
 
-/// Notes what a value tells of its column.
 void
 note (Column& column, std::string_view word, double value)
 {
@@ -40,7 +35,6 @@ note (Column& column, std::string_view word, double value)
                         countDigits (word) <= std::numeric_limits<float>::max_digits10;
 }
 
-/// Rows of numbers, and what the columns turned out to hold.
 class Table
 {
 public:
@@ -115,7 +109,6 @@ public:
                           "names them");
   }
 
-  /// Narrows the columns to their types, and makes fields of them.
   std::vector<Field> fields (std::vector<std::string>& warnings) const
   {
     const bool are_bytes =

@@ -3,8 +3,6 @@
 #include "cloud_reader.h"
 #include "text_scanner.h"
 
-#include <algorithm>
-
 namespace pcl::floater {
 namespace {
 constexpr std::size_t LONGEST_QUOTE = 40; // of a word in a message

@@ -3,17 +3,12 @@
 // Points of VTK's files in XML (VTK User's Guide, "XML file formats"), without VTK, which takes longer
 // to load than most clouds to reconstruct. Of the XML, only the tags and attributes of arrays matter.
 #include "cloud_reader.h"
-#include "format.h"
 #include "text_scanner.h"
 
 #include <lodepng.h>
 
-#include <algorithm>
-#include <optional>
-
 namespace pcl::floater {
 namespace {
-/// The value of an attribute of a tag; empty if it has none.
 std::string_view
 attributeOf (std::string_view tag, std::string_view name)
 {

@@ -6,7 +6,6 @@
 #include "mesh_texture.h"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +37,6 @@ public:
 
   double side () const { return static_cast<double> (side_); }
 
-  /// Fills a triangle.
   /// \param shade gives the colour of a point of it from the shares of its corners, which sum to 1
   template <typename Shade>
   void fill (const std::array<Spot, 3>& corners, const Shade& shade)
@@ -68,7 +66,6 @@ public:
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
 
-  /// Draws a line.
   /// \param width in pixels
   void drawLine (Spot from, Spot to, int width, const Colour& colour, double opacity)
   {
@@ -144,39 +141,37 @@ private:
   std::vector<ColourImage::Pixel> colours_;
 };
 
-/// An image in several sizes, each half of the one before, so that no pixel of it is passed over
-/// where many are in one of the canvas.
-class Mipmap
+/// An image on a mesh, in a size in which its pixels are about as large as those of the canvas, so that
+/// none is passed over.
+class Texture
 {
 public:
-  explicit Mipmap (const ColourImage& image) : images_{image}
+  /// \param pixels of the image in one of the canvas, along a side
+  Texture (ColourImage image, double pixels) : image_ (std::move (image))
   {
-    while (std::min (images_.back ().width, images_.back ().height) > 1)
-      images_.push_back (halved (images_.back ()));
+    constexpr double MOST = 1.5;
+    for (; pixels > MOST && std::min (image_.width, image_.height) > 1; pixels /= 2.0)
+      image_ = halved (image_);
   }
 
-  /// The size whose pixels are as large as those of the canvas: 0 for the image itself, 1 for its
-  /// half, and so on.
-  /// \param at places of the corners of a triangle in the image, from 0 to 1, y upwards
-  double level (const std::array<Eigen::Vector2d, 3>& at, const std::array<Spot, 3>& corners) const
+  /// The colour at a place from 0 to 1, y upwards, averaged linearly between pixels.
+  Colour operator() (const Eigen::Vector2d& at) const
   {
-    const auto& [a, b, c] = corners;
-    Eigen::Matrix2d on_canvas, in_image;
-    on_canvas << b.x - a.x, c.x - a.x, b.y - a.y, c.y - a.y;
-    in_image << at[1] - at[0], at[2] - at[0];
-    const Eigen::Vector2d size (images_[0].width, images_[0].height);
-    const double steps =
-        (size.asDiagonal () * in_image * on_canvas.inverse ()).colwise ().norm ().maxCoeff ();
-    const auto last = static_cast<double> (images_.size () - 1);
-    return std::min (std::log2 (std::max (1.0, steps)), last); // 0 also if there is no inverse
-  }
-
-  /// The colour at a place, averaged linearly between pixels, and between sizes.
-  Colour colour (const Eigen::Vector2d& at, double level) const
-  {
-    const double fine = std::floor (level);
-    return mix (colourIn (images_[static_cast<std::size_t> (fine)], at),
-                colourIn (images_[static_cast<std::size_t> (std::ceil (level))], at), level - fine);
+    const auto columns = static_cast<double> (image_.width),
+               rows = static_cast<double> (image_.height);
+    const double x = std::clamp (at.x () * columns - 0.5, 0.0, columns - 1.0);
+    const double y = std::clamp ((1.0 - at.y ()) * rows - 0.5, 0.0, rows - 1.0);
+    const auto left = static_cast<std::size_t> (x), top = static_cast<std::size_t> (y);
+    Colour colour = Colour::Zero ();
+    for (const std::size_t down : {0, 1})
+      for (const std::size_t right : {0, 1}) {
+        const auto& pixel = image_.pixels[std::min (top + down, image_.height - 1) * image_.width +
+                                          std::min (left + right, image_.width - 1)];
+        const double share = (right == 1 ? x - std::floor (x) : 1.0 - x + std::floor (x)) *
+                             (down == 1 ? y - std::floor (y) : 1.0 - y + std::floor (y));
+        colour += share / 255.0 * Colour (pixel[0], pixel[1], pixel[2]);
+      }
+    return colour;
   }
 
 private:
@@ -195,30 +190,7 @@ private:
     return half;
   }
 
-  static Colour mix (const Colour& a, const Colour& b, double share)
-  {
-    return (1.0 - share) * a + share * b;
-  }
-
-  static Colour colourIn (const ColourImage& image, const Eigen::Vector2d& at)
-  {
-    const auto columns = static_cast<double> (image.width),
-               rows = static_cast<double> (image.height);
-    const double x = std::clamp (at.x () * columns - 0.5, 0.0, columns - 1.0);
-    const double y = std::clamp ((1.0 - at.y ()) * rows - 0.5, 0.0, rows - 1.0);
-    const auto left = static_cast<std::size_t> (x), top = static_cast<std::size_t> (y);
-    const std::size_t right = std::min (left + 1, image.width - 1);
-    const auto inRow = [&] (std::size_t row) {
-      const auto colourOf = [&] (std::size_t column) -> Colour {
-        const ColourImage::Pixel& pixel = image.pixels[row * image.width + column];
-        return Colour (pixel[0], pixel[1], pixel[2]) / 255.0;
-      };
-      return mix (colourOf (left), colourOf (right), x - std::floor (x));
-    };
-    return mix (inRow (top), inRow (std::min (top + 1, image.height - 1)), y - std::floor (y));
-  }
-
-  std::vector<ColourImage> images_;
+  ColourImage image_;
 };
 
 } // namespace pcl::floater

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl_floater_picture: draws a mesh and its parameterization into a PNG file.
 #include "atomic_file.h"
-#include "cloud.h"
 #include "mesh_picture.h"
 
 #include <CLI/CLI.hpp>

@@ -4,12 +4,10 @@
 
 #include "canvas.h"
 #include "cloud_reader.h"
-#include "format.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,13 +59,7 @@ readPictureMesh (const std::filesystem::path& path)
 }
 
 namespace {
-// From where the mesh is seen.
-
-/// Directions of a picture.
-struct View
-{
-  Eigen::Vector3d towards_viewer, up; ///< unit vectors
-};
+using View = std::array<Eigen::Vector3d, 2>; ///< unit vectors: towards the viewer, and up
 
 /// Where points are on a canvas.
 struct Camera
@@ -140,10 +132,11 @@ axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
 Camera
 lookAlong (const View& view)
 {
-  const Eigen::Vector3d right = view.up.cross (view.towards_viewer).normalized ();
+  const auto& [back, up] = view;
+  const Eigen::Vector3d right = up.cross (back).normalized ();
   Camera camera{};
-  camera.axes << right.transpose (), view.towards_viewer.cross (right).normalized ().transpose (),
-      view.towards_viewer.transpose ();
+  camera.axes << right.transpose (), back.cross (right).normalized ().transpose (),
+      back.transpose ();
   return camera;
 }
 
@@ -172,7 +165,6 @@ chooseView (const PictureMesh& mesh)
   return {Eigen::AngleAxisd (TURN * DEGREE, up) * tilted, up};
 }
 
-/// Parallel projection, scaled so that the points fill the square picture.
 Camera
 aimCamera (const View& view, const std::vector<Eigen::Vector3d>& points)
 {
@@ -211,11 +203,8 @@ aimFromViewpoint (const Eigen::Vector3d& viewpoint, const std::vector<Eigen::Vec
   return camera;
 }
 
-// How it is drawn.
-
 constexpr std::size_t SUPERSAMPLING = 2;        // pixels drawn per pixel, in each direction
 constexpr std::size_t MOST_DRAWN_EDGES = 15000; // triangles of a shaded mesh up to which edges show
-constexpr int COLOUR_STEP = 5;                  // of 256 levels of each colour
 constexpr int BOUNDARY_WIDTH = 4, EDGE_WIDTH = 1; // pixels drawn
 constexpr double LIFT = 3.0;                      // pixels drawn
 
@@ -266,12 +255,6 @@ drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& tria
   }
 }
 
-bool
-edgesShow (const PictureMesh& mesh)
-{
-  return mesh.triangles.size () <= MOST_DRAWN_EDGES;
-}
-
 // One light over the left shoulder of the viewer, and a weaker one from the lower right.
 double
 brightness (const Eigen::Vector3d& normal)
@@ -288,12 +271,24 @@ enum class Shading
   SMOOTH
 };
 
-// \param texture or nullptr: front and back sides have their colours
+// \param image by texture coordinates; without one, front and back sides have their colours
 void
-drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, const Mipmap* texture,
-               Shading shading)
+drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
+               const std::optional<ColourImage>& image, Shading shading)
 {
   const std::vector<Spot> spots = project (mesh.points, camera, canvas);
+  std::optional<Texture> texture;
+  if (image) {
+    double on_canvas = 0.0, in_image = 0.0; // areas, in pixels
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Eigen::Vector2d u = mesh.coordinates[b] - mesh.coordinates[a],
+                            v = mesh.coordinates[c] - mesh.coordinates[a];
+      on_canvas += std::abs (Canvas::signedArea ({spots[a], spots[b], spots[c]}));
+      in_image += std::abs (u.x () * v.y () - u.y () * v.x ()) *
+                  static_cast<double> (image->pixels.size ());
+    }
+    texture.emplace (*image, on_canvas > 0.0 ? std::sqrt (in_image / on_canvas) : 1.0);
+  }
   // As the camera sees them: unit normals of triangles, and their sums around the vertices.
   std::vector<Eigen::Vector3d> normals, sums (mesh.points.size (), Eigen::Vector3d::Zero ());
   normals.reserve (mesh.triangles.size ());
@@ -315,16 +310,11 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, co
               shares[2] * values[triangle[2]])
           .eval ();
     };
-    double level = 0.0;
-    if (texture != nullptr)
-      level = texture->level ({mesh.coordinates[triangle[0]], mesh.coordinates[triangle[1]],
-                               mesh.coordinates[triangle[2]]},
-                              corners);
     const double side = Canvas::signedArea (corners) < 0.0 ? 1.0 : -1.0;
     canvas.fill (corners, [&] (const Eigen::Vector3d& shares) -> Colour {
       Colour colour = side > 0.0 ? FRONT : BACK;
-      if (texture != nullptr)
-        colour = texture->colour (mean (mesh.coordinates, shares), level);
+      if (texture)
+        colour = (*texture) (mean (mesh.coordinates, shares));
       if (shading == Shading::NONE)
         return colour;
       const Eigen::Vector3d normal =
@@ -332,19 +322,9 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera, co
       return (brightness (side * normal) * colour).cwiseMin (1.0);
     });
   }
-  if (texture == nullptr)
+  if (!texture)
     drawEdges (canvas, project (mesh.points, camera, canvas, LIFT), mesh.triangles,
-               edgesShow (mesh) ? 1.0 : 0.0);
-}
-
-// Rounds the colours, which is invisible and makes the file a third smaller.
-void
-coarsenColours (ColourImage& image)
-{
-  for (ColourImage::Pixel& pixel : image.pixels)
-    for (std::uint8_t& value : pixel)
-      value = static_cast<std::uint8_t> (
-          std::min (255, (value + COLOUR_STEP / 2) / COLOUR_STEP * COLOUR_STEP));
+               mesh.triangles.size () <= MOST_DRAWN_EDGES ? 1.0 : 0.0);
 }
 
 } // namespace
@@ -375,9 +355,6 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
   const bool has_two_panels = options.parameterization || options.texture;
   ColourImage image{has_two_panels ? 2 * height : height, height, {}};
   image.pixels.resize (image.width * image.height);
-  std::optional<Mipmap> texture;
-  if (options.texture)
-    texture.emplace (*options.texture);
 
   Canvas canvas (SUPERSAMPLING * height);
   std::optional<Camera> camera;
@@ -385,27 +362,27 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
     camera = aimFromViewpoint (mesh.scale * (*options.viewpoint - mesh.centre), mesh.points);
   if (!camera)
     camera = aimCamera (chooseView (mesh), mesh.points);
-  drawTriangles (canvas, mesh, *camera, texture ? &*texture : nullptr,
+  drawTriangles (canvas, mesh, *camera, options.texture,
                  options.flat_shading ? Shading::FLAT : Shading::SMOOTH);
   canvas.copyTo (image, 0);
 
   canvas = Canvas (SUPERSAMPLING * height);
-  if (texture) {
+  if (options.texture) {
     for (std::size_t i = 0; i < mesh.points.size (); ++i)
       mesh.points[i] << mesh.coordinates[i], 0.0;
     drawTriangles (canvas, mesh,
                    aimCamera (from_above, {Eigen::Vector3d::Zero (), Eigen::Vector3d::Ones ()}),
-                   &*texture, Shading::NONE);
+                   options.texture, Shading::NONE);
   }
   else if (options.parameterization) {
     const PictureMesh& flat = *options.parameterization;
     const std::vector<Spot> spots =
         project (flat.points, aimCamera (from_above, flat.points), canvas);
-    drawEdges (canvas, spots, flat.triangles, edgesShow (flat) ? 1.0 : 0.2);
+    drawEdges (canvas, spots, flat.triangles,
+               flat.triangles.size () <= MOST_DRAWN_EDGES ? 1.0 : 0.2);
   }
   if (has_two_panels)
     canvas.copyTo (image, height);
-  coarsenColours (image);
   return image;
 }
 

@@ -3,7 +3,6 @@
 // A picture of a mesh and of its parameterization, side by side.
 #pragma once
 
-#include "cloud.h"
 #include "mesh_texture.h"
 
 #include <filesystem>
@@ -27,7 +26,6 @@ struct PictureMesh
 PictureMesh
 readPictureMesh (const std::filesystem::path& path);
 
-/// Options of a picture.
 struct PictureOptions
 {
   std::optional<PictureMesh> parameterization; ///< mesh in the plane whose edges are drawn beside

@@ -6,9 +6,9 @@
 #include "options/check_options.h"
 #include "options/option_rows.h"
 #include "report_json.h"
-#include "watch.h"
 
 #include <pcl/surface/floater/reconstruct.h>
+#include <pcl/surface/floater/texture_coordinates.h>
 #include <pcl/surface/floater/vertex_normals.h>
 
 #include <Eigen/Core>
@@ -18,6 +18,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <numeric>
 
@@ -25,6 +26,69 @@ namespace py = pybind11;
 
 namespace pcl::floater {
 namespace {
+/// Tells Python's caller how far a run is, and ends the run if the callable or a signal raised an
+/// exception. The run does not hold the lock of the interpreter (GIL) meanwhile.
+class Watch
+{
+public:
+  explicit Watch (pybind11::object progress) : progress_ (std::move (progress))
+  {
+    // Signals are handled in the main thread only.
+    const auto threading = pybind11::module_::import ("threading");
+    handles_signals_ = threading.attr ("current_thread") ().is (threading.attr ("main_thread") ());
+  }
+
+  /// \param options Options, or TextureOptions
+  template <typename AnyOptions>
+  void attachTo (AnyOptions& options)
+  {
+    options.cancelled_callback = [this] { return isCancelled (); };
+    if (!progress_.is_none ())
+      options.progress_callback = [this] (double fraction) { tell (fraction); };
+    if constexpr (std::is_same_v<AnyOptions, Options>)
+      options.stage_callback = [this] (Stage stage) { stage_ = stageName (stage); };
+    else
+      stage_ = "texture";
+  }
+
+  /// To be called with the lock.
+  /// \throws what was raised during the run
+  void rethrow () const
+  {
+    if (raised_)
+      std::rethrow_exception (raised_);
+  }
+
+private:
+  void tell (double fraction)
+  {
+    if (raised_)
+      return;
+    const pybind11::gil_scoped_acquire lock;
+    try {
+      progress_ (stage_, fraction);
+    }
+    catch (const pybind11::error_already_set&) {
+      raised_ = std::current_exception ();
+    }
+  }
+
+  bool isCancelled ()
+  {
+    if (!raised_ && handles_signals_) {
+      const pybind11::gil_scoped_acquire lock;
+      if (PyErr_CheckSignals () != 0)
+        raised_ = std::make_exception_ptr (pybind11::error_already_set ());
+    }
+    return raised_ != nullptr;
+  }
+
+  pybind11::object progress_;
+  bool handles_signals_ = false;
+  const char* stage_ = "";
+  std::exception_ptr raised_;
+};
+
 /// Takes the options that a dict has, each under the name that the tool has for it.
 struct OptionsReader
 {
@@ -124,7 +188,6 @@ bufferOf (const ResultArray& array)
   return {first, size, array.format, static_cast<py::ssize_t> (shape.size ()), shape, strides};
 }
 
-/// \param owner of the values, which are numbers or arrays of numbers
 template <typename T>
 ResultArray
 arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
@@ -241,7 +304,6 @@ copyTriangles (const py::buffer& buffer)
   return {first, first + info.shape[0]};
 }
 
-/// \return an array of the shape (n, 3) of float
 ResultArray
 normalsOf (const py::buffer& points, const py::buffer& triangles, int threads)
 {

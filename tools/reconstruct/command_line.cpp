@@ -2,24 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command_line.h"
 
-#include "atomic_file.h"
-#include "cloud.h"
-#include "cloud_reader.h"
-#include "format.h"
-#include "mesh_output.h"
-#include "mesh_writer.h"
 #include "option_table.h"
 #include "options/check_options.h"
-#include "options/option_rows.h"
 #include "scratch_arrays.h"
-#include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <new>
-#include <utility>
 
 namespace pcl::floater {
 int
@@ -35,9 +25,9 @@ describeException (const char* if_no_memory, std::string& message)
   try {
     throw;
   }
-  catch (const UsageError& error) {
-    message = std::string (error.what ()) + "\nTry --help.";
-    return EXIT_USAGE;
+  catch (const ToolError& error) {
+    message = std::string (error.what ()) + (error.code == EXIT_USAGE ? "\nTry --help." : "");
+    return error.code;
   }
   catch (const ReadError& error) {
     message = error.what ();
@@ -76,7 +66,27 @@ readLoop (const std::filesystem::path& path)
 }
 
 namespace {
-/// \throws UsageError
+void
+checkTextureOptions (const CommandLine& line)
+{
+  const std::optional<MeshFormat> format = line.meshFormat ();
+  if (line.texture_coordinates &&
+      (format == MeshFormat::STL || format == MeshFormat::OFF || format == MeshFormat::GLB))
+    throw UsageError ("STL, OFF and GLB are written without texture coordinates; write .vtk, .ply "
+                      "or .obj, or leave --uv and --texture out");
+  if (line.texture_coordinates && format == MeshFormat::OBJ && isStandardStream (line.output))
+    throw UsageError ("the file of materials beside an OBJ file has no place on the standard "
+                      "output; write .ply or .vtk there, or leave --uv and --texture out");
+  if (!line.texture.empty () && lowerExtension (line.texture) != ".png")
+    throw UsageError ("--texture: '" + line.texture.string () +
+                      "' is no PNG file; give a name that ends with .png");
+  if (line.texture_size != 0 && line.texture.empty ())
+    throw UsageError ("--texture-size is of no use without --texture");
+  if (line.texture_coordinates && line.max_memory > 0)
+    throw UsageError ("--max-memory cannot limit the memory of --uv and --texture; leave one of "
+                      "them out");
+}
+
 void
 checkMemoryLimit (CommandLine& line)
 {
@@ -155,7 +165,6 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
 }
 
 namespace {
-/// Whether two paths name the same file, which need not exist.
 bool
 areSame (const std::filesystem::path& a, const std::filesystem::path& b)
 {
@@ -201,7 +210,7 @@ checkPaths (const CommandLine& line)
     const std::filesystem::path* path;
     bool is_output;
   };
-  const std::filesystem::path materials = materialsOf (line);
+  const std::filesystem::path materials = line.materials ();
   for (const std::filesystem::path* path : {&materials, &line.texture})
     if (path->filename ().string ().find_first_of ("\n\r") != std::string::npos)
       throw UsageError (

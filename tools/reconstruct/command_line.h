@@ -28,14 +28,25 @@ enum ExitCode
   EXIT_RECONSTRUCTION = 3,
   EXIT_OUTPUT = 4,
   EXIT_INTERNAL = 5,
-  EXIT_WARNINGS = 6
+  EXIT_WARNINGS = 6,
+  EXIT_WORK = 7 ///< a file of the work folder of pcl_floater_distributed cannot be used
+};
+
+/// A failure, and the exit code for it.
+struct ToolError : std::runtime_error
+{
+  ToolError (int exit_code, const std::string& message)
+      : std::runtime_error (message), code (exit_code)
+  {
+  }
+
+  int code;
 };
 
 /// The command line is wrong, or asks for something impossible.
-class UsageError : public std::runtime_error
+struct UsageError : ToolError
 {
-public:
-  using std::runtime_error::runtime_error;
+  explicit UsageError (const std::string& message) : ToolError (EXIT_USAGE, message) {}
 };
 
 /// Prints "program: message" to standard error.
@@ -96,23 +107,21 @@ struct CommandLine
   bool strict = false;                 ///< write no poor mesh, and none with points left out
   std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
 
-  /// The format of the input, if anything tells it, else nullptr.
   CloudFormat cloudFormat () const
   {
     return input_format != nullptr ? input_format : cloudFormatOf (input);
   }
 
-  /// The format of the mesh, if anything tells it.
   std::optional<MeshFormat> meshFormat () const
   {
     return output_format ? output_format : meshFormatOf (output);
   }
 
-  /// Whether the normals of the input are read to find the front of the mesh.
-  bool usesNormalsForFacing () const
+  /// The file of materials beside an OBJ file with texture coordinates; else empty.
+  std::filesystem::path materials () const
   {
-    return options.facing == Facing::NORMALS ||
-           (options.facing == Facing::AUTO && use_input_normals);
+    return texture_coordinates && meshFormat () == MeshFormat::OBJ ? materialsBeside (output)
+                                                                   : std::filesystem::path ();
   }
 };
 

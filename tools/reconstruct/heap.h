@@ -28,7 +28,6 @@ prepareHeap (bool in_huge_pages)
   constexpr int THRESHOLD = 8 << 20, IN_HUGE_PAGES = 64 << 20;
   mallopt (M_MMAP_THRESHOLD, THRESHOLD);
   mallopt (M_TRIM_THRESHOLD, 4 * IN_HUGE_PAGES);
-#ifdef MADV_HUGEPAGE
   if (in_huge_pages) {
     constexpr std::uintptr_t MOST = 2 * static_cast<std::uintptr_t> (IN_HUGE_PAGES);
     constexpr std::uintptr_t PAGE = std::uintptr_t{1} << 21U;
@@ -40,7 +39,6 @@ prepareHeap (bool in_huge_pages)
       ::madvise (reinterpret_cast<void*> (first), last - first, MADV_HUGEPAGE);
     std::free (begin);
   }
-#endif
   mallopt (M_TOP_PAD, THRESHOLD / 2);
 #else
   (void)in_huge_pages;

@@ -2,42 +2,234 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "html_report.h"
 
+#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "html_template.h"
+#include "local/planes.h"
+#include "mesh/check.h"
+#include "mesh/fold_repair.h"
+#include "mesh/self_intersections.h"
+#include "points/neighbors.h"
 #include "report/findings.h"
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
+#include <pcl/surface/floater/vertex_normals.h>
 
-#include <algorithm>
 #include <cmath>
-#include <unordered_set>
+#include <numeric>
+#include <unordered_map>
 
 namespace pcl::floater {
 namespace {
 using Json = nlohmann::ordered_json;
 using Box = Eigen::AlignedBox3d;
 
-constexpr std::size_t MOST_SHOWN_POINTS = 50'000; // of each kind
-constexpr std::size_t MOST_LISTED_LOOPS = 20;
-
-/// What the page says first.
-Json
-headlineJson (const Report& report, const RunFigures& run)
+struct Flaw
 {
-  if (report.status != RunStatus::SUCCESS || run.is_refused)
-    return {{"level", "failed"}, {"word", "no mesh"}, {"text", report.message}};
-  const Verdict& verdict = report.verdict;
-  return {{"level", verdict.value == Quality::GOOD     ? "good"
-                    : verdict.value == Quality::USABLE ? "doubts"
-                                                       : "flaws"},
-          {"word", qualityName (verdict.value)},
-          {"text", verdict.cause.empty () ? "Hardly a flaw in the mesh"
-                                          : verdict.cause + ". What helps: " + verdict.remedy}};
+  const char* name;
+  std::vector<Index> triangles; // ascending
+};
+
+/// The mesh as it is drawn: only its vertices, around the origin, in a unit that float can square.
+struct Drawing
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero (); // of the cloud, where the origin is
+  double unit = 1.0;                                 // in units of the cloud; a power of two
+  std::vector<Eigen::Vector3d> positions;
+  Triangles triangles;
+  std::vector<float> spacing; // of each vertex; empty if there is no mesh
+  std::vector<float> height;  // of each vertex above those around, in spacings
+  std::vector<Flaw> flaws;
+  double median_spacing = 0.0;
+  bool has_all_flaws = true;
+};
+
+Box
+boxAround (const std::vector<Eigen::Vector3d>& positions)
+{
+  Box box;
+  for (const Eigen::Vector3d& position : positions)
+    box.extend (position);
+  return box;
 }
 
-/// Counts in bins of equal width, of the values or of their logarithms. Values beyond the ends are
-/// in the first and the last bin.
+/// The positions of the vertices of triangles, which are renumbered in their order.
+template <typename Position>
+std::vector<Eigen::Vector3d>
+takeVertices (std::size_t points, const Position& positionOf, Triangles& triangles)
+{
+  std::vector<Index> number (points, NONE);
+  std::vector<Eigen::Vector3d> positions;
+  for (Triangle& triangle : triangles)
+    for (Index& p : triangle) {
+      if (number[p] == NONE) {
+        number[p] = static_cast<Index> (positions.size ());
+        positions.push_back (positionOf (p));
+      }
+      p = number[p];
+    }
+  return positions;
+}
+
+/// The height of each vertex above the mean of those that it is connected to, in spacings.
+std::vector<float>
+heights (const Drawing& drawing, int threads)
+{
+  const std::vector<Eigen::Vector3f> normals =
+      vertexNormals (drawing.positions, drawing.triangles, threads);
+  std::vector<double> sums (normals.size ());
+  std::vector<std::uint32_t> terms (normals.size ());
+  for (const Triangle& triangle : drawing.triangles)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (const std::size_t other : {(c + 1) % 3, (c + 2) % 3}) {
+        const Index p = triangle[c];
+        sums[p] += normals[p].cast<double> ().dot (drawing.positions[triangle[other]] -
+                                                   drawing.positions[p]);
+        ++terms[p];
+      }
+  std::vector<float> result;
+  for (std::size_t p = 0; p < sums.size (); ++p)
+    if (drawing.spacing[p] > 0.0F)
+      result.push_back (
+          static_cast<float> (std::abs (sums[p]) / (terms[p] * double (drawing.spacing[p]))));
+  return result;
+}
+
+/// The flaws of which the report has some places only, by the limits of its examination.
+std::vector<Flaw>
+findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
+           const RunContext& run)
+{
+  constexpr CheckLimits LIMITS;
+  const std::vector<Eigen::Vector3d>& positions = drawing.positions;
+  const double precision = LIMITS.precision * boxAround (positions).diagonal ().norm ();
+  std::vector<Flaw> flaws{{"crossing", {}}, {"folded", {}}, {"flat", {}}, {"long", {}}};
+  const auto add = [] (Flaw& flaw, const std::vector<Index>& triangles) {
+    flaw.triangles.insert (flaw.triangles.end (), triangles.begin (), triangles.end ());
+  };
+  if (has_crossings)
+    for (const CrossingPair& pair : findSelfIntersections (mesh.triangles, positions, run))
+      add (flaws[0], {pair.first, pair.second});
+  for (const MeshEdge edge : findFolds (mesh, positions, run))
+    add (flaws[1], {edge.triangle, mesh.mate (edge).triangle});
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    double longest = 0.0;
+    for (const std::uint8_t side : {0, 1, 2}) {
+      const MeshEdge edge{t, side};
+      const Index from = mesh.from (edge), to = mesh.to (edge), other = mesh.mate (edge).triangle;
+      const double length = (positions[to] - positions[from]).norm ();
+      longest = std::max (longest, length);
+      if (other != NONE && other > t &&
+          length > LIMITS.long_edge * 0.5 * (drawing.spacing[from] + drawing.spacing[to]))
+        add (flaws[3], {t, other});
+    }
+    const double height = areaVector (positions[a], positions[b], positions[c]).norm () / longest;
+    if (!(height > precision || height > LIMITS.flat_height * longest))
+      add (flaws[2], {t});
+  }
+  for (Flaw& flaw : flaws)
+    sortUnique (flaw.triangles);
+  return flaws;
+}
+
+/// Joins the vertices within the cells of a grid that is just wide enough, but those of flaws.
+void
+thin (Drawing& drawing, std::size_t most)
+{
+  std::vector<Index> flawed;
+  for (const Flaw& flaw : drawing.flaws)
+    flawed.insert (flawed.end (), flaw.triangles.begin (), flaw.triangles.end ());
+  sortUnique (flawed);
+  std::vector<std::uint8_t> stays (drawing.positions.size ());
+  for (const Index t : flawed)
+    for (const Index p : drawing.triangles[t])
+      stays[p] = 1;
+  const Box box = boxAround (drawing.positions);
+  constexpr double CELLS = 1 << 20, GROWTH = 1.2;
+  const double widest = box.sizes ().maxCoeff ();
+  const double too_many = static_cast<double> (drawing.triangles.size ()) / double (most);
+  const double narrowest =
+      std::max ({drawing.median_spacing * std::sqrt (too_many) / GROWTH, widest / CELLS, 1e-300});
+  double cell = narrowest;
+  std::vector<Index> joined (stays.size ());
+  Triangles kept;
+  std::vector<Index> number; // of each triangle among those kept
+  do {
+    cell *= GROWTH;
+    if (cell > widest && drawing.has_all_flaws) { // there are too many
+      drawing.has_all_flaws = false;
+      std::fill (stays.begin (), stays.end (), std::uint8_t{0});
+      cell = narrowest;
+    }
+    std::unordered_map<std::uint64_t, Index> first;
+    for (Index p = 0; p < joined.size (); ++p) {
+      std::uint64_t key = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        key = key << 21U |
+              static_cast<std::uint64_t> ((drawing.positions[p][axis] - box.min ()[axis]) / cell);
+      joined[p] = stays[p] != 0 ? p : first.try_emplace (key, p).first->second;
+    }
+    kept.clear ();
+    number.assign (drawing.triangles.size (), NONE);
+    for (std::size_t t = 0; t < number.size (); ++t) {
+      Triangle triangle = drawing.triangles[t];
+      for (Index& p : triangle)
+        p = joined[p];
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+        continue;
+      number[t] = static_cast<Index> (kept.size ());
+      kept.push_back (triangle);
+    }
+  } while (kept.size () > most);
+  for (Flaw& flaw : drawing.flaws) {
+    for (Index& t : flaw.triangles)
+      t = number[t];
+    flaw.triangles.erase (std::remove (flaw.triangles.begin (), flaw.triangles.end (), NONE),
+                          flaw.triangles.end ());
+  }
+  drawing.positions = takeVertices (
+      joined.size (), [&drawing] (Index p) { return drawing.positions[p]; }, kept);
+  drawing.triangles = std::move (kept);
+}
+
+/// Spacing, heights and flaws are those of the whole mesh.
+Drawing
+makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
+{
+  Drawing drawing;
+  if (result.triangles.empty ())
+    return drawing;
+  drawing.triangles = result.triangles;
+  drawing.positions = takeVertices (
+      cloud.size (), [&cloud] (Index p) { return cloud.position (p); }, drawing.triangles);
+  const Eigen::AlignedBox3d box = boxAround (drawing.positions);
+  drawing.centre = box.center ();
+  if (const double size = box.sizes ().maxCoeff (); size > 0.0)
+    drawing.unit = std::ldexp (1.0, std::ilogb (size));
+  for (Eigen::Vector3d& position : drawing.positions)
+    position = (position - drawing.centre) / drawing.unit;
+  constexpr int NEAREST = 6; // that localSpacing takes
+  const RunContext run (std::max (line.options.threads, 0));
+  drawing.spacing = localSpacing (
+      drawing.positions,
+      findNearestNeighbors (drawing.positions, Rows::all (drawing.positions.size ()), NEAREST,
+                            static_cast<std::size_t> (line.options.blocks), run),
+      run);
+  std::vector<float> spacing = drawing.spacing;
+  drawing.median_spacing = median (spacing);
+  drawing.height = heights (drawing, line.options.threads);
+  TriangleMesh mesh;
+  mesh.triangles = drawing.triangles;
+  if (mesh.connect (drawing.positions.size (), run))
+    drawing.flaws = findFlaws (mesh, drawing, result.report.check.self_intersections > 0, run);
+  if (drawing.triangles.size () > line.shown_triangles)
+    thin (drawing, line.shown_triangles);
+  return drawing;
+}
+
+/// Counts in bins of equal width, of the values or their logarithms; the outer two have the rest.
 /// \param unit of the values; the result is in units of the cloud
 Json
 histogramJson (std::vector<float> values, double unit, bool is_log)
@@ -60,17 +252,14 @@ histogramJson (std::vector<float> values, double unit, bool is_log)
           {"median", at (0.5)}, {"quantile_90", at (0.9)}, {"largest", at (1.0)}};
 }
 
+/// Numbers of 32 bits, little endian, in base64.
 template <typename Number>
-void
-appendNumber (Number number, std::string& bytes)
-{
-  copyNumber<Number> (&number, &number, ByteOrder::LITTLE);
-  bytes.append (reinterpret_cast<const char*> (&number), sizeof number);
-}
-
 std::string
-base64 (const std::string& bytes)
+base64 (const std::vector<Number>& numbers)
 {
+  std::string bytes (numbers.size () * sizeof (Number), '\0');
+  for (std::size_t i = 0; i < numbers.size (); ++i)
+    copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i], ByteOrder::LITTLE);
   constexpr const char* DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size (); i += 3) {
@@ -83,35 +272,6 @@ base64 (const std::string& bytes)
   return text;
 }
 
-/// How positions are written: as steps of 16 bits within a box, if the spacing is many of these.
-struct Quantizer
-{
-  Quantizer (const Box& box, double spacing) : origin (box.min ())
-  {
-    constexpr double STEPS = 65535.0, LEAST = 16.0;
-    step = box.sizes ().maxCoeff () / STEPS;
-    is_fine = spacing > 0.0 && spacing < LEAST * step;
-    if (is_fine || !(step > 0.0))
-      step = 1.0;
-  }
-
-  void append (const Eigen::Vector3d& position, std::string& bytes) const
-  {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double value = (position[axis] - origin[axis]) / step;
-      if (is_fine)
-        appendNumber (static_cast<float> (value), bytes);
-      else
-        appendNumber (static_cast<std::uint16_t> (std::lround (value)), bytes);
-    }
-  }
-
-  Eigen::Vector3d origin;
-  double step = 1.0;
-  bool is_fine = false;
-};
-
-/// Points that are drawn as dots.
 struct Dots
 {
   const char* name;
@@ -119,15 +279,17 @@ struct Dots
   std::vector<Eigen::Vector3d> positions; // of some, with the centre of the drawing at the origin
 };
 
-template <typename Position>
 Dots
-takeDots (const char* name, std::size_t count, const Position& positionOf)
+takeDots (const char* name, const std::vector<Index>& points, const Cloud& cloud,
+          const Drawing& drawing)
 {
-  Dots dots{name, count, {}};
+  Dots dots{name, points.size (), {}};
   constexpr double FARTHEST = 1e100; // beyond, squares overflow
-  const std::size_t step = count / MOST_SHOWN_POINTS + 1;
-  for (std::size_t i = 0; i < count; i += step)
-    if (const Eigen::Vector3d position = positionOf (i);
+  constexpr std::size_t MOST_SHOWN = 50'000;
+  const std::size_t step = points.size () / MOST_SHOWN + 1;
+  for (std::size_t i = 0; i < points.size (); i += step)
+    if (const Eigen::Vector3d position =
+            (cloud.positionOfRow (points[i]) - drawing.centre) / drawing.unit;
         (position.array ().abs () < FARTHEST).all ())
       dots.positions.push_back (position);
   return dots;
@@ -152,9 +314,8 @@ bulkOf (const Dots& dots)
 Json
 meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_dots)
 {
-  Box box = boxAround (drawing.positions);
-  if (box.isEmpty ()) // the dots of all points are the first
-    box = bulkOf (all_dots.front ());
+  // The dots of all points are the first.
+  Box box = drawing.positions.empty () ? bulkOf (all_dots[0]) : boxAround (drawing.positions);
   if (box.isEmpty ())
     return {};
   // What is far away is not shown, because nothing else would be seen.
@@ -166,40 +327,33 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
                           dots.positions.end ());
     box.extend (boxAround (dots.positions));
   }
-  const Quantizer quantizer (box, drawing.median_spacing);
-  const auto written = [&quantizer] (const std::vector<Eigen::Vector3d>& positions) {
-    std::string bytes;
+  const double size = box.sizes ().maxCoeff () > 0.0 ? box.sizes ().maxCoeff () : 1.0;
+  const auto written = [&] (const std::vector<Eigen::Vector3d>& positions) {
+    std::vector<float> coordinates;
     for (const Eigen::Vector3d& position : positions)
-      quantizer.append (position, bytes);
-    return base64 (bytes);
+      for (const double coordinate : (position - box.center ()) / size)
+        coordinates.push_back (static_cast<float> (coordinate));
+    return base64 (coordinates);
   };
-  const bool are_short = drawing.positions.size () <= 1U << 16U;
-  std::string corners;
+  std::vector<Index> corners;
   for (const Triangle& triangle : drawing.triangles)
-    for (const Index p : triangle)
-      are_short ? appendNumber (static_cast<std::uint16_t> (p), corners)
-                : appendNumber (p, corners);
+    corners.insert (corners.end (), triangle.begin (), triangle.end ());
   Json flaws = Json::array (), dots_json = Json::array ();
-  for (const Flaw& flaw : drawing.flaws) {
-    std::string numbers;
-    for (const Index t : flaw.triangles)
-      appendNumber (t, numbers);
-    flaws.push_back (
-        {{"name", flaw.name}, {"count", flaw.triangles.size ()}, {"triangles", base64 (numbers)}});
-  }
+  for (const Flaw& flaw : drawing.flaws)
+    flaws.push_back ({{"name", flaw.name},
+                      {"count", flaw.triangles.size ()},
+                      {"triangles", base64 (flaw.triangles)}});
   for (const Dots& dots : all_dots)
     dots_json.push_back ({{"name", dots.name},
                           {"count", dots.count},
                           {"shown", dots.positions.size ()},
                           {"positions", written (dots.positions)}});
-  const Eigen::Vector3d origin = drawing.centre + drawing.unit * quantizer.origin;
+  const Eigen::Vector3d origin = drawing.centre + drawing.unit * box.center ();
   return {{"triangles", triangles},
           {"shown", drawing.triangles.size ()},
           {"all_flaws", drawing.has_all_flaws},
           {"origin", {origin.x (), origin.y (), origin.z ()}},
-          {"step", drawing.unit * quantizer.step},
-          {"floats", quantizer.is_fine},
-          {"short", are_short},
+          {"unit", drawing.unit * size},
           {"spacing", drawing.unit * drawing.median_spacing},
           {"positions", written (drawing.positions)},
           {"corners", base64 (corners)},
@@ -211,6 +365,7 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
 Json
 placesJson (const Report& report, const Cloud& cloud)
 {
+  constexpr std::size_t MOST_LISTED = 20; // loops
   Json places = Json::object ();
   const auto add = [&] (std::uint32_t point) {
     const Eigen::Vector3d at = cloud.positionOfRow (point);
@@ -220,7 +375,7 @@ placesJson (const Report& report, const Cloud& cloud)
     add (decision.at);
   for (const FacingDecision& decision : report.facing_decisions)
     add (decision.at);
-  for (std::size_t i = 0; i < std::min (report.check.loops.size (), MOST_LISTED_LOOPS); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t> (report.check.loops.size (), MOST_LISTED); ++i)
     add (report.check.loops[i].at);
   return places;
 }
@@ -235,32 +390,20 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
   Json without_lists = reportJson (line, report, run);
   for (const char* list : {"loop", "unused", "outliers", "scatter", "non_finite", "duplicates"})
     without_lists[list] = without_lists[list].size ();
-  std::unordered_set<std::string> told;
-  Json sentences = Json::array (), others = Json::array ();
+  Json sentences = Json::array ();
   for (const Finding& finding : report.findings)
-    sentences.push_back (*told.insert (sentenceOf (finding)).first);
-  for (const std::string& warning : report.warnings)
-    if (told.count (warning) == 0)
-      others.push_back (warning);
-
+    sentences.push_back (sentenceOf (finding));
   const Drawing drawing = makeDrawing (line, cloud, result);
-  const auto dotsAt = [&] (const char* name, const std::vector<std::uint32_t>& points) {
-    return takeDots (name, points.size (), [&] (std::size_t i) -> Eigen::Vector3d {
-      return (cloud.positionOfRow (points[i]) - drawing.centre) / drawing.unit;
-    });
-  };
+  std::vector<Index> all (drawing.triangles.empty () ? cloud.rows : 0);
+  std::iota (all.begin (), all.end (), Index{0});
   std::vector<Dots> dots;
-  if (drawing.triangles.empty ())
-    dots.push_back (takeDots ("points", cloud.rows,
-                              [&] (std::size_t row) { return cloud.positionOfRow (row); }));
-  dots.push_back (dotsAt ("scatter", report.scatter));
-  dots.push_back (dotsAt ("outliers", report.outliers));
-  dots.push_back (dotsAt ("unused", report.unused));
+  for (const auto& [name, points] :
+       {std::pair ("points", &std::as_const (all)), std::pair ("scatter", &report.scatter),
+        std::pair ("outliers", &report.outliers), std::pair ("unused", &report.unused)})
+    dots.push_back (takeDots (name, *points, cloud, drawing));
 
-  const Json data = {{"headline", headlineJson (report, run)},
-                     {"report", std::move (without_lists)},
+  const Json data = {{"report", std::move (without_lists)},
                      {"sentences", std::move (sentences)},
-                     {"other_warnings", std::move (others)},
                      {"places", placesJson (report, cloud)},
                      {"histograms",
                       {{"spacing", histogramJson (drawing.spacing, drawing.unit, true)},

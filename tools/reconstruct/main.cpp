@@ -2,22 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
-#include "cloud_reader.h"
-#include "command_line.h"
-#include "format.h"
 #include "heap.h"
 #include "html_report.h"
-#include "mesh_output.h"
-#include "mesh_writer.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
-#include "remaining_time.h"
 #include "report_json.h"
-#include "run_report.h"
-#include "scratch_arrays.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -29,63 +20,32 @@
 
 namespace pcl::floater {
 namespace {
-/// What a stage does, for people.
-const char*
-stageWords (Stage stage)
-{
-  constexpr std::array<const char*, static_cast<std::size_t> (Stage::COUNT)> WORDS{
-      "sorting points",
-      "searching neighbours",
-      "fitting planes",
-      "connecting points",
-      "finding the boundary",
-      "weighting neighbours",
-      "solving the linear system",
-      "triangulating",
-      "filling holes",
-      "repairing the mesh",
-      "checking the mesh"};
-  return WORDS[static_cast<std::size_t> (stage)];
-}
-
 /// Shows the current step on the standard error stream if that is a terminal that can erase a line.
 /// The line is erased at the end.
 class Progress
 {
 public:
   explicit Progress (bool wanted)
-      : is_shown_ (wanted && ::isatty (STDERR_FILENO) == 1 && canErase (std::getenv ("TERM")))
   {
+    const char* const terminal = std::getenv ("TERM");
+    is_shown_ = wanted && ::isatty (STDERR_FILENO) == 1 && terminal != nullptr &&
+                *terminal != '\0' && std::string (terminal) != "dumb";
   }
-  ~Progress () { clear (); }
+  ~Progress () { show (""); }
   Progress (const Progress&) = delete;
   Progress& operator= (const Progress&) = delete;
 
   void show (const std::string& step)
   {
-    if (is_shown_ && step != shown_) {
-      std::fprintf (stderr, "\r\033[K%s ...", step.c_str ());
-      std::fflush (stderr);
-      shown_ = step;
-    }
-  }
-
-  void clear ()
-  {
-    if (is_shown_ && !shown_.empty ()) {
-      std::fputs ("\r\033[K", stderr);
-      std::fflush (stderr);
-      shown_.clear ();
-    }
+    if (!is_shown_ || step == shown_)
+      return;
+    std::fputs (("\r\033[K" + step + (step.empty () ? "" : " ...")).c_str (), stderr);
+    std::fflush (stderr);
+    shown_ = step;
   }
 
 private:
-  static bool canErase (const char* terminal)
-  {
-    return terminal != nullptr && *terminal != '\0' && std::string (terminal) != "dumb";
-  }
-
-  bool is_shown_;
+  bool is_shown_ = false;
   std::string shown_;
 };
 
@@ -98,7 +58,7 @@ reconstructInput (Input input, Options options, Progress& progress)
                                 << 19U; // memory is worth more than time from here on
   const bool is_large = input.positions.size () > LARGE;
   options.stage_callback = [&name, is_large] (Stage stage) {
-    name = stageWords (stage);
+    name = stageName (stage);
     if (is_large)
       giveFreedBack ();
   };
@@ -116,16 +76,15 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   std::vector<Eigen::Vector3d> places;
   for (const Eigen::Vector2d& place : result.report.parameters)
     places.emplace_back (place.x (), place.y (), 0.0);
-  Cloud flat;
-  flat.single_precision = precision != Precision::DOUBLE;
-  flat.rows = places.size ();
-  std::vector<Field> axes;
-  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (places), axes);
-  std::move (axes.begin (), axes.end (), flat.coordinates.begin ());
+  const std::size_t points = places.size ();
+  std::vector<Field> fields;
+  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (places), fields);
   const FieldTriple normals = normalFields (cloud);
   for (const Field& field : cloud.fields)
     if (std::find (normals.begin (), normals.end (), &field) == normals.end ())
-      flat.fields.push_back (field);
+      fields.push_back (field);
+  Cloud flat = makeCloud (std::move (fields), points);
+  flat.single_precision = precision != Precision::DOUBLE;
   Triangles triangles;
   std::copy_if (result.triangles.begin (), result.triangles.end (), std::back_inserter (triangles),
                 [&flat] (const auto& triangle) {
@@ -135,6 +94,76 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
                 });
   removeNonFinitePoints (flat, triangles);
   return {std::move (flat), std::move (triangles)};
+}
+
+// The image as the file of materials names it: relative to its own folder, as readers expect it.
+std::string
+imageName (const CommandLine& line)
+{
+  if (line.texture.empty ())
+    return {};
+  const std::filesystem::path folder =
+      std::filesystem::absolute (line.output).parent_path ().lexically_normal ();
+  return std::filesystem::absolute (line.texture)
+      .lexically_normal ()
+      .lexically_proximate (folder)
+      .generic_string ();
+}
+
+void
+checkTextureColours (const CommandLine& line, const Cloud& cloud)
+{
+  if (!line.texture.empty () && !colorFields (cloud)[0])
+    throw UsageError (
+        "--texture: the points of '" + line.input.string () +
+        "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for texture "
+        "coordinates alone");
+}
+
+/// Computes the coordinates that are asked for. If that fails, the result has no mesh any more, and
+/// says why.
+TextureCoordinates
+computeTexture (const CommandLine& line, const Cloud& cloud, Result& result)
+{
+  if (!line.texture_coordinates || result.report.status != RunStatus::SUCCESS)
+    return {};
+  TextureOptions options;
+  options.threads = line.options.threads;
+  options.whole_discs = result.report.topology == Topology::DISC;
+  TextureCoordinates texture =
+      computeTextureCoordinates (cloud.positions (), result.triangles, options);
+  if (texture.status != RunStatus::SUCCESS) {
+    result.report.status = texture.status;
+    result.report.message = "texture coordinates: " + texture.message;
+    result.triangles.clear ();
+  }
+  else if (texture.flipped > 0)
+    result.report.warnings.push_back (
+        counted (texture.flipped, "triangle") + (texture.flipped == 1 ? " is" : " are") +
+        " upside down in the texture: too small beside the mesh for 32 bits");
+  return texture;
+}
+
+/// Writes the file of materials of an OBJ file and the image, under temporary names.
+/// \return what is odd about them, one sentence each
+std::vector<std::string>
+stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
+              const TextureCoordinates& texture, OutputFiles& files)
+{
+  std::vector<std::string> notes;
+  if (const std::filesystem::path materials = line.materials (); !materials.empty ()) {
+    stageFile (materials, materialsText (imageName (line)), files);
+    if ((materials.filename ().string () + imageName (line)).find (' ') != std::string::npos)
+      notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
+                          "which many readers of OBJ files do not take");
+  }
+  if (!line.texture.empty ()) {
+    const std::size_t side = line.texture_size > 0
+                                 ? static_cast<std::size_t> (line.texture_size)
+                                 : imageSideFor (texture.coordinates.size (), texture.area_used);
+    stageFile (line.texture, pngOf (bakeColours (cloud, triangles, texture, side)), files);
+  }
+  return notes;
 }
 
 /// Writes all outputs under temporary names, so that none is visible yet.
@@ -158,13 +187,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     stage (line.parameterization, flat, triangles, meshFormatOf (line.parameterization));
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
-    result.report.warnings.push_back (
-        counted (removed, "point") +
-        (removed == 1
-             ? " without finite coordinates was left out of the output; the vertices after it "
-               "moved up"
-             : " without finite coordinates were left out of the output; the vertices after them "
-               "moved up"));
+    result.report.warnings.push_back (counted (removed, "point") + " without finite coordinates " +
+                                      (removed == 1 ? "was" : "were") +
+                                      " left out of the output; the vertices behind moved up");
   run.vertices = cloud.size ();
   if (line.texture_coordinates) {
     for (std::uint32_t& point : run.texture.points)
@@ -244,7 +269,7 @@ run (CommandLine line)
   OutputFiles files;
   stageAll (line, cloud, result, figures, files);
   figures.write_seconds = secondsSince (start);
-  progress.clear ();
+  progress.show ("");
   printOutcome (line, report, figures);
   for (AtomicFile& file : files)
     file.publish ();

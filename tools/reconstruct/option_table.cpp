@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "option_table.h"
 
-#include "command_line.h"
-#include "options/option_rows.h"
 #include "scratch_arrays.h"
 
-#include <algorithm>
-#include <functional>
-
 namespace pcl::floater {
-void
+CLI::Option*
 addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
            const std::string& kind, const std::string& group)
 {
@@ -19,10 +14,10 @@ addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const
     if (const std::string cause = parse (word); !cause.empty ())
       throw CLI::ValidationError (long_name, "'" + word + "' " + cause);
   };
-  app.add_option_function<std::string> (name, take, text)->option_text (kind)->group (group);
+  return app.add_option_function<std::string> (name, take, text)->option_text (kind)->group (group);
 }
 
-void
+CLI::Option*
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind)
 {
@@ -30,7 +25,7 @@ addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
     path = word;
     return "";
   };
-  addParsed (app, name, take, description, kind, group);
+  return addParsed (app, name, take, description, kind, group);
 }
 
 std::string
@@ -175,17 +170,6 @@ void
 addGeneral (CLI::App& app, CommandLine& line)
 {
   addMemoryLimit (app, line);
-  const auto setLimit = [&line] (const std::string& setting) { // for tests
-    const std::string name = "page.triangles";
-    const std::string word = setting.substr (std::min (name.size () + 1, setting.size ()));
-    if (setting.substr (0, setting.find ('=')) != name)
-      return "is no NAME=VALUE of a limit";
-    return parseNumber (std::string_view (word), line.shown_triangles) &&
-                   line.shown_triangles >= 100
-               ? ""
-               : "is no value of page.triangles";
-  };
-  addParsed (app, "--limit", setLimit, "", "", "");
   addCoordinates (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
@@ -218,18 +202,15 @@ namespace {
 void
 addFiles (CLI::App& app, CommandLine& line)
 {
-  const auto positional = [&app] (const std::string& name, std::filesystem::path& path,
-                                  const std::string& text) {
-    app.add_option_function<std::string> (
-           name, [&path] (const std::string& word) { path = word; }, text)
-        ->option_text (" ")
-        ->required ();
-  };
-  positional ("INPUT", line.input,
-              std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input");
-  positional ("OUTPUT", line.output,
-              "mesh to write: .vtk, .ply, .obj, .stl, .off or .glb; - is the standard output");
   const std::string files = "Files";
+  addPath (app, "INPUT", line.input,
+           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", files,
+           " ")
+      ->required ();
+  addPath (app, "OUTPUT", line.output,
+           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", files,
+           " ")
+      ->required ();
   addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
              "format of INPUT; auto: that of its extension; xyz: text with a point in each line",
              files);
@@ -239,6 +220,9 @@ addFiles (CLI::App& app, CommandLine& line)
   addPath (app, "--html", line.html,
            "write the report as a page for a browser: figures, findings and the mesh, which turns",
            OUTPUT_GROUP);
+  addNumber (app, "--page-triangles", line.shown_triangles,
+             "most triangles that the page shows; in larger meshes, vertices are joined",
+             OUTPUT_GROUP);
   addPath (app, "--parameterization", line.parameterization,
            "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc",
            OUTPUT_GROUP);

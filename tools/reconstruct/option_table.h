@@ -5,7 +5,6 @@
 
 #include "command_line.h"
 #include "core/problem.h"
-#include "format.h"
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
@@ -29,7 +28,7 @@ using ParseWord = std::function<std::string (const std::string& word)>;
 
 /// An option whose word `parse` takes.
 /// \param kind of the value, and its default, for the help
-void
+CLI::Option*
 addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
            const std::string& kind, const std::string& group);
 
@@ -59,7 +58,7 @@ addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<En
 
 /// An option whose value is a number. All of the word has to be one.
 template <typename Number>
-void
+CLI::Option*
 addNumber (CLI::App& app, const std::string& name, Number& value, const std::string& description,
            const std::string& group)
 {
@@ -70,11 +69,11 @@ addNumber (CLI::App& app, const std::string& name, Number& value, const std::str
   };
   std::ostringstream text;
   text << (std::is_integral_v<Number> ? "N (" : "X (") << value << ")";
-  addParsed (app, name, parse, description, text.str (), group);
+  return addParsed (app, name, parse, description, text.str (), group);
 }
 
 /// An option whose value is the path of a file or a folder.
-void
+CLI::Option*
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const std::string& group, const char* kind = "FILE");
 
@@ -93,12 +92,9 @@ prepareApp (CLI::App& app, const char* description, const char* footer);
 std::optional<int>
 parseArguments (CLI::App& app, const std::vector<std::string>& arguments);
 
-/// The message for an option that is out of its range.
 /// \param problem of checkOptions ()
 std::string
 rangeMessage (const CLI::App& app, const Problem& problem);
-
-struct OptionRow;
 
 /// Adds every option of pcl_floater_reconstruct and the two positional arguments to \a app, which
 /// writes to \a line when it parses, and so has to end before it.
@@ -110,15 +106,12 @@ void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes);
 
-/// --normals and --report.
 void
 addOutputs (CLI::App& app, CommandLine& line);
 
-/// --max-memory and --scratch.
 void
 addMemoryLimit (CLI::App& app, CommandLine& line);
 
-/// --shift, --columns, --classes and --precision.
 void
 addCoordinates (CLI::App& app, CommandLine& line);
 

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prepared_input.h"
 
-#include "mesh_writer.h"
 #include "points/outliers.h"
 
 #include <Eigen/Geometry>
+#include <pcl/surface/floater/vertex_normals.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,23 +43,23 @@ Input
 makeInput (const Cloud& cloud)
 {
   Input input;
-  input.positions = cloud.positions ();
+  input.positions.reserve (cloud.size ());
   input.cloud_size = cloud.size ();
   input.sensor_origin = cloud.sensor_origin;
   for (std::size_t row = 0; row < cloud.size (); ++row)
     if (!cloud.isLeftOut (row)) {
-      input.positions[input.cloud_index.size ()] = input.positions[row];
+      input.positions.push_back (cloud.position (row));
       input.cloud_index.push_back (static_cast<std::uint32_t> (row));
     }
-  input.positions.resize (input.cloud_index.size ());
-  cloud.file.giveBack ();
+  giveBackMappedFiles ();
   return input;
 }
 
 void
 takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
 {
-  const bool for_facing = line.usesNormalsForFacing ();
+  const bool for_facing = line.options.facing == Facing::NORMALS ||
+                          (line.options.facing == Facing::AUTO && line.use_input_normals);
   if (line.options.facing == Facing::AUTO && !for_facing)
     input.facing_normals = std::move (cloud.towards_sensors);
   if (!line.use_input_normals && !for_facing)
@@ -77,7 +76,7 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       normals[p][axis] =
           static_cast<float> (fields[static_cast<std::size_t> (axis)]->asDouble (cloud.row (p)));
-  cloud.file.giveBack ();
+  giveBackMappedFiles ();
   if (std::none_of (normals.begin (), normals.end (), [] (const Eigen::Vector3f& normal) {
         return normal.allFinite () && !normal.isZero (0.0F);
       }))
@@ -216,6 +215,14 @@ writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
                                "into its points as 0: use --precision single or "
                                "another format for PCL");
   return false;
+}
+
+void
+replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
+{
+  std::vector<Eigen::Vector3f> normals = vertexNormals (cloud.positions (), triangles, threads);
+  giveBackMappedFiles ();
+  replaceColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT32, std::move (normals), cloud.fields);
 }
 
 } // namespace pcl::floater

@@ -3,9 +3,6 @@
 // From a cloud of a file to the input of the core; and from its outcome to an exit code.
 #pragma once
 
-#include "cloud.h"
-#include "command_line.h"
-#include "format.h"
 #include "run_report.h"
 #include "scratch_arrays.h"
 
@@ -58,7 +55,11 @@ prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures,
 bool
 writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud);
 
-/// The exit code of a run.
+/// Gives the cloud the fields nx, ny and nz of 32-bit floats, with the normals of the vertices of
+/// the mesh (see vertexNormals ()), in place of those that it has. All points must be left.
+void
+replaceNormals (Cloud& cloud, const Triangles& triangles, int threads);
+
 int
 exitCode (const Report& report, const RunFigures& run);
 

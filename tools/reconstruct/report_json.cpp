@@ -102,71 +102,45 @@ facingPartsJson (const Report& report)
   return parts;
 }
 
-// Writes the value of each option.
-struct OptionsWriter
-{
-  Json& json;
-
-  template <typename Number>
-  void operator() (const OptionRow& row, Number value, const NumberRange&)
-  {
-    json[row.name] = value;
-  }
-  void operator() (const OptionRow& row, bool value) { json[row.name] = value; }
-  template <typename Enum, std::size_t N>
-  void operator() (const OptionRow& row, Enum value, const Choices<Enum, N>& choices)
-  {
-    json[row.name] = choiceName (choices, value);
-  }
-  void operator() (const OptionRow& row, const HoleOptions& holes, LengthUnit unit)
-  {
-    json[row.name] = holes.unit == unit ? holes.largest_hole : 0.0;
-  }
-  void operator() (const OptionRow& row, const ViewOptions& view)
-  {
-    json[row.name] = view.use == ViewUse::GIVEN  ? Json (view.viewpoint)
-                     : view.use == ViewUse::AUTO ? Json ("auto")
-                                                 : Json ("none");
-  }
-};
-
-// Writes what the table has on each option.
+// Writes what the table has on each option, with its value as the default.
 struct TableWriter
 {
   Json& table;
-  Json defaults;
 
   template <typename Number>
-  void operator() (const OptionRow& row, Number, const NumberRange& range)
+  void operator() (const OptionRow& row, Number value, const NumberRange& range)
   {
-    add (row, std::is_integral_v<Number> ? "int" : "float", range.text ());
+    add (row, std::is_integral_v<Number> ? "int" : "float", range.text (), value);
   }
-  void operator() (const OptionRow& row, bool) { add (row, "bool", {true, false}); }
+  void operator() (const OptionRow& row, bool value) { add (row, "bool", {true, false}, value); }
   template <typename Enum, std::size_t N>
-  void operator() (const OptionRow& row, Enum, const Choices<Enum, N>& choices)
+  void operator() (const OptionRow& row, Enum value, const Choices<Enum, N>& choices)
   {
     Json words = Json::array ();
     for (const auto& choice : choices)
       words.push_back (choice.first);
-    add (row, "word", words);
+    add (row, "word", words, choiceName (choices, value));
   }
-  void operator() (const OptionRow& row, const HoleOptions&, LengthUnit)
+  void operator() (const OptionRow& row, const HoleOptions& holes, LengthUnit unit)
   {
-    add (row, "float", NumberRange{0, NO_LIMIT}.text ());
+    (*this) (row, holes.unit == unit ? holes.largest_hole : 0.0, NumberRange{0, NO_LIMIT});
   }
-  void operator() (const OptionRow& row, const ViewOptions&)
+  void operator() (const OptionRow& row, const ViewOptions& view)
   {
-    add (row, "place", "x,y,z, auto or none");
+    add (row, "place", "x,y,z, auto or none",
+         view.use == ViewUse::GIVEN  ? Json (view.viewpoint)
+         : view.use == ViewUse::AUTO ? Json ("auto")
+                                     : Json ("none"));
   }
 
-  void add (const OptionRow& row, const char* kind, const Json& values)
+  void add (const OptionRow& row, const char* kind, const Json& values, const Json& value)
   {
     table.push_back ({{"name", row.name},
                       {"letter", row.letter},
                       {"group", row.group},
                       {"class", row.in_class},
                       {"kind", kind},
-                      {"default", defaults[row.name]},
+                      {"default", value},
                       {"values", values},
                       {"text", row.text}});
   }
@@ -175,22 +149,22 @@ struct TableWriter
 } // namespace
 
 nlohmann::ordered_json
-optionsJson (const Options& options, bool use_input_normals)
+optionTableJson (const Options& options)
 {
-  Json json = Json::object ();
-  visitOptions (options, OptionsWriter{json});
-  json["use_input_normals"] = use_input_normals;
-  json["loop_given"] = !options.disc.boundary.loop.empty ();
-  return json;
+  Json table = Json::array ();
+  visitOptions (options, TableWriter{table});
+  return table;
 }
 
 nlohmann::ordered_json
-optionTableJson ()
+optionsJson (const Options& options, bool use_input_normals)
 {
-  Json table = Json::array ();
-  const Options defaults;
-  visitOptions (defaults, TableWriter{table, optionsJson (defaults, false)});
-  return table;
+  Json json = Json::object ();
+  for (const Json& row : optionTableJson (options))
+    json[row["name"].get<std::string> ()] = row["default"];
+  json["use_input_normals"] = use_input_normals;
+  json["loop_given"] = !options.disc.boundary.loop.empty ();
+  return json;
 }
 
 nlohmann::ordered_json

@@ -17,8 +17,9 @@ optionsJson (const Options& options, bool use_input_normals);
 
 /// The table of options: an array with name, letter, group, class, kind (bool, int, float, word, place), default,
 /// values and text of each.
+/// \param options whose values are the defaults
 nlohmann::ordered_json
-optionTableJson ();
+optionTableJson (const Options& options = {});
 
 /// Null if the mesh is not that of a single scan.
 nlohmann::ordered_json
@@ -34,7 +35,6 @@ resultJson (const Report& report);
 std::string
 objectionTo (const Report& report);
 
-/// Seconds of each stage.
 nlohmann::ordered_json
 secondsJson (const Statistics& statistics);
 

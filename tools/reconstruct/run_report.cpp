@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
-#include "atomic_file.h"
-#include "format.h"
 #include "report_json.h"
 #include "scratch_arrays.h"
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace pcl::floater {
@@ -23,7 +20,6 @@ fileName (const std::filesystem::path& path)
   return path.empty () ? Json () : Json (path.string ());
 }
 
-/// Null if there is no limit.
 Json
 memoryLimitJson (const CommandLine& line)
 {
@@ -34,7 +30,6 @@ memoryLimitJson (const CommandLine& line)
           {"scratch_peak_bytes", scratchUse ().peak}};
 }
 
-/// Null if no texture coordinates were asked for.
 Json
 textureJson (const CommandLine& line, const RunFigures& run)
 {
@@ -226,7 +221,6 @@ printUnsure (std::FILE* to, const Report& report)
   }
 }
 
-/// Prints method, components, genus and boundary loops.
 void
 printShape (std::FILE* to, const Report& report)
 {

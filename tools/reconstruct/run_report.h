@@ -3,7 +3,6 @@
 // The report of the tool on a run, as JSON.
 #pragma once
 
-#include "cloud.h"
 #include "command_line.h"
 
 #include <pcl/surface/floater/report.h>
@@ -52,7 +51,6 @@ reportMemory (const CommandLine& line, Report& report);
 std::string
 dump (const nlohmann::ordered_json& json);
 
-/// The whole report as a JSON object.
 nlohmann::ordered_json
 reportJson (const CommandLine& command_line, const Report& report, const RunFigures& run);
 

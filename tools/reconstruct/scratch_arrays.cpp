@@ -6,7 +6,6 @@
 #include "scratch_arrays.h"
 
 #include "atomic_file.h"
-#include "file_bytes.h"
 #include "text_scanner.h"
 
 #include <fcntl.h>
@@ -42,6 +41,13 @@ constexpr double FIXED = 20e6;
 
 constexpr std::size_t PAGE = 4096; // or a multiple; where mappings begin
 
+/// Why the last array that could not be made had no room.
+struct ScratchFailure
+{
+  int error = 0;
+  std::size_t wanted = 0, held = 0; // bytes
+};
+
 /// All arrays in files. Nothing may be freed while it is locked, because operator delete locks it as
 /// well. Nodes of the table can be allocated, because they are no large arrays.
 struct ScratchArrays
@@ -49,7 +55,7 @@ struct ScratchArrays
   std::mutex mutex;                   // guards all but the folder
   std::map<void*, std::size_t> sizes; // by address
   ScratchUse use;
-  std::string failure;
+  ScratchFailure failure;
   std::string folder; // set once, before there are arrays
 };
 
@@ -63,7 +69,6 @@ scratchArrays ()
 
 std::atomic<bool> has_scratch{false};
 
-/// Makes a file without a name.
 /// \return its descriptor; -1 and errno if there is none
 int
 makeScratchFile (const std::string& folder)
@@ -79,23 +84,6 @@ makeScratchFile (const std::string& folder)
   if (named >= 0)
     ::unlink (name.c_str ());
   return named;
-}
-
-void
-describeFailure (std::size_t bytes, int error)
-{
-  const auto megabytes = [] (std::size_t count) {
-    return std::to_string (count / 1'000'000) + " MB";
-  };
-  ScratchArrays& all = scratchArrays ();
-  std::string failure = "no room in the scratch folder '" + all.folder +
-                        "': " + std::strerror (error) + "; it holds " +
-                        megabytes (scratchUse ().bytes) + ", and " + megabytes (bytes) +
-                        " more are needed" +
-                        (error == EFBIG ? "; raise the limit on file sizes (ulimit -f)"
-                                        : "; free some space or name another folder by --scratch");
-  const std::lock_guard<std::mutex> lock (all.mutex);
-  all.failure.swap (failure);
 }
 
 /// Maps a new file. The addresses come first: a size beyond all of them must not fill the disk.
@@ -117,7 +105,6 @@ mapNewFile (std::size_t bytes)
   return error == 0 ? array : MAP_FAILED;
 }
 
-/// Makes an array in a file.
 /// \return nullptr if there is no room
 [[maybe_unused]] void*
 makeLargeArray (std::size_t size)
@@ -125,24 +112,25 @@ makeLargeArray (std::size_t size)
   if (size > PTRDIFF_MAX)
     return nullptr;
   void* const array = mapNewFile (size);
-  try {
-    if (array == MAP_FAILED)
-      return describeFailure (size, errno), nullptr;
-    ScratchArrays& all = scratchArrays ();
-    const std::lock_guard<std::mutex> lock (all.mutex);
-    all.sizes.emplace (array, size);
-    all.use.bytes += size;
-    all.use.peak = std::max (all.use.peak, all.use.bytes);
-    return array;
-  }
-  catch (const std::bad_alloc&) { // for the entry or the message
-    if (array != MAP_FAILED)
-      ::munmap (array, size);
+  const int error = errno;
+  ScratchArrays& all = scratchArrays ();
+  const std::lock_guard<std::mutex> lock (all.mutex);
+  if (array == MAP_FAILED) {
+    all.failure = {error, size, all.use.bytes};
     return nullptr;
   }
+  try {
+    all.sizes.emplace (array, size);
+  }
+  catch (const std::bad_alloc&) {
+    ::munmap (array, size);
+    return nullptr;
+  }
+  all.use.bytes += size;
+  all.use.peak = std::max (all.use.peak, all.use.bytes);
+  return array;
 }
 
-/// Frees an array with its file.
 /// \return false if the pointer is not one of these arrays
 [[maybe_unused]] bool
 freeLargeArray (void* pointer)
@@ -233,9 +221,22 @@ scratchUse ()
 std::string
 scratchFailure ()
 {
+  const auto megabytes = [] (std::size_t bytes) {
+    return std::to_string (bytes / 1'000'000) + " MB";
+  };
   ScratchArrays& all = scratchArrays ();
-  const std::lock_guard<std::mutex> lock (all.mutex);
-  return all.failure;
+  ScratchFailure last;
+  {
+    const std::lock_guard<std::mutex> lock (all.mutex);
+    last = all.failure;
+  }
+  if (last.error == 0)
+    return "";
+  return "no room in the scratch folder '" + all.folder + "': " + std::strerror (last.error) +
+         "; it holds " + megabytes (last.held) + ", and " + megabytes (last.wanted) +
+         " more are needed" +
+         (last.error == EFBIG ? "; raise the limit on file sizes (ulimit -f)"
+                              : "; free some space or name another folder by --scratch");
 }
 
 bool

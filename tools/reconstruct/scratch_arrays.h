@@ -41,7 +41,6 @@ struct ScratchUse
   std::size_t peak = 0;  ///< largest size so far
 };
 
-/// The use of the scratch folder so far.
 ScratchUse
 scratchUse ();
 

@@ -13,7 +13,6 @@ namespace pcl::floater {
 namespace {
 using Words = std::vector<std::string>;
 
-/// A word in lower case and without dashes before it.
 std::string
 plain (const std::string& word)
 {
@@ -88,7 +87,6 @@ didYouMean (const std::string& word, const std::vector<std::string>& words)
 }
 
 namespace {
-/// The message for a command line that could not be parsed.
 std::string
 usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
 {

@@ -3,7 +3,7 @@
 #include "facing_cases.h"
 
 #include "known_meshes.h"
-#include "random_stream.h"
+#include "surfaces.h"
 
 #include <algorithm>
 #include <cmath>

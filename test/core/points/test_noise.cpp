@@ -58,10 +58,10 @@ changeByProjection (const Cloud& cloud, Deviation&& deviationAt)
 
 TEST (Noise, TellsStrongNoiseFromNone)
 {
-  for (const SurfaceKind kind : surfaceKinds ()) {
+  for (const auto& [name, kind] : SURFACES) {
     if (kind == SurfaceKind::FOLDED_SHEET)
       continue; // its flaps look like noise at the largest scale; see ThinSheetsAreNone
-    SCOPED_TRACE (surfaceName (kind));
+    SCOPED_TRACE (name);
     EXPECT_LT (Cloud (surface (kind, 6000, 0.0)).noisyShare (), 0.1);
     EXPECT_LT (Cloud (surface (kind, 6000, 0.1)).noisyShare (), 0.3);
     for (const double deviation : {0.3, 0.5}) {

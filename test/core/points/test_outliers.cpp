@@ -155,9 +155,9 @@ square (int side, std::uint64_t seed)
 
 TEST (Outliers, NoneOnSurfaces)
 {
-  for (const SurfaceKind kind : surfaceKinds ())
+  for (const auto& [name, kind] : SURFACES)
     for (const double noise : {0.0, 0.1, 0.5}) {
-      SCOPED_TRACE (surfaceName (kind) + std::string (", noise ") + std::to_string (noise));
+      SCOPED_TRACE (name + std::string (", noise ") + std::to_string (noise));
       EXPECT_TRUE (outliersOf (surface (kind, 4000, noise)).empty ());
       EXPECT_TRUE (outliersOf (surface (kind, 4000, std::min (noise, 0.2), 30.0)).empty ());
     }

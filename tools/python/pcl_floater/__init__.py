@@ -20,8 +20,7 @@ import numpy as np
 
 from . import _arrays, _core
 from ._core import __version__
-from ._errors import FloaterError
-from ._on_meshes import Texture, texture_coordinates, vertex_normals
+from ._on_meshes import FloaterError, Texture, texture_coordinates, vertex_normals
 
 __all__ = ["FloaterError", "Mesh", "Texture", "reconstruct", "texture_coordinates", "vertex_normals"]
 

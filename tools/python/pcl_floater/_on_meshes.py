@@ -1,11 +1,34 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Functions for any triangle mesh."""
+"""Functions for any triangle mesh, and the exception of the module."""
 import numpy as np
 
 from . import _core
 from ._arrays import as_callable, as_flag, as_number, as_rows, as_triangles, as_whole
-from ._errors import FloaterError
+
+
+class FloaterError(RuntimeError):
+    """There is no mesh. The text names the cause, and what to do.
+
+    Attributes
+    ----------
+    status : str
+        The outcome in one word, such as "TOO_FEW_POINTS" or "NO_BOUNDARY"; "REFUSED" if it was
+        `strict` that refused the mesh. doc/troubleshooting.md has all of them.
+    report : dict
+        The report on the run, as `Mesh.report`. Its "message" is the text of the exception. Empty if it
+        is `texture_coordinates` that failed.
+    """
+
+    __module__ = "pcl_floater"
+
+    def __init__(self, message, status, report):
+        super().__init__(message)
+        self.status = status
+        self.report = report
+
+    def __reduce__(self):
+        return type(self), (str(self), self.status, self.report)
 
 
 class Texture:
