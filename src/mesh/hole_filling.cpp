@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -32,7 +33,9 @@ public:
 
   bool fill (const BoundaryLoop& loop)
   {
-    if (isRoundOneTriangle (loop))
+    // Around a component of one triangle, the only filling is that triangle, reversed.
+    constexpr std::array<Index, 3> ALONE{NONE, NONE, NONE};
+    if (mesh_.neighbors[mesh_.triangle_of[loop.points.front ()]] == ALONE)
       return false;
     std::vector<Index> polygon (loop.points.rbegin (), loop.points.rend ());
     const double step = loop.length / static_cast<double> (loop.points.size ());
@@ -60,17 +63,6 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
-  // Whether the loop goes round a component of one triangle: its only filling is the reversed
-  // triangle.
-  bool isRoundOneTriangle (const BoundaryLoop& loop) const
-  {
-    const auto isInLoop = [&loop] (Index p) {
-      return std::find (loop.points.begin (), loop.points.end (), p) != loop.points.end ();
-    };
-    const Triangle& t = mesh_.triangles[mesh_.triangle_of[loop.points.front ()]];
-    return loop.points.size () == 3 && std::all_of (t.begin (), t.end (), isInLoop);
-  }
-
   double fillCost (Index p, Index q, Index r) const
   {
     const double double_area = areaVector (positions_[p], positions_[q], positions_[r]).norm ();
