@@ -7,8 +7,6 @@
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // Fractions of the stage's time at the end of these steps. Measured on clean clouds.

@@ -4,11 +4,9 @@
 
 #include "core/run_context.h"
 
-#include <algorithm>
 #include <limits>
 #include <queue>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {

@@ -8,7 +8,6 @@
 #include "mesh/trimming.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <queue>
 #include <tuple>

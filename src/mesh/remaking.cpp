@@ -3,7 +3,6 @@
 #include "mesh/remaking.h"
 
 #include "core/disjoint_sets.h"
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/fold_repair.h"

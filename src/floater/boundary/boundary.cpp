@@ -7,7 +7,6 @@
 #include "local/planar_star.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl::floater {
 std::vector<Gap>
