@@ -37,10 +37,10 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   const Limits& limits = request.limits;
   request.run.beginStage (Stage::BOUNDARY);
   const bool is_given = !options.loop.empty ();
-  Boundary boundary = is_given || options.method != BoundaryMethod::CONSENSUS
-                          ? findBoundary (points, geometry, options, request.run, limits.loop)
-                          : consensusLoop (points.workingPositions (), geometry, request.run,
-                                           {limits.surface.consensus, limits.surface.open_loops});
+  Boundary boundary =
+      is_given || options.method != BoundaryMethod::CONSENSUS
+          ? findBoundary (points, geometry, options, request.run, limits.loop)
+          : consensusLoop (points.workingPositions (), geometry, request.run, limits.surface);
   checkBoundary (points, geometry.spacing, is_given, boundary, limits.loop);
   return boundary;
 }

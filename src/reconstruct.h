@@ -32,7 +32,7 @@ public:
   /// See takeAreaSamples.
   virtual std::vector<AreaSample> areaSamples () = 0;
 
-  /// See beginStars.
+  /// See makeStars.
   virtual Stars begunStars () = 0;
 };
 

@@ -6,7 +6,6 @@
 #include "consensus/orientation.h"
 #include "core/order_statistics.h"
 #include "floater/boundary/boundary.h"
-#include "mesh/insertion.h"
 
 #include <algorithm>
 #include <utility>
@@ -54,7 +53,7 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
 
 Boundary
 consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-               const RunContext& run, const ConsensusLoopLimits& limits)
+               const RunContext& run, const SurfaceLimits& limits)
 {
   const ConsensusMesh consensus = makeConsensusMesh (positions, geometry.neighbors, geometry.stars,
                                                      geometry.spacing, limits.consensus, run);
@@ -64,14 +63,14 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
       findBoundaryLoops (consensus.mesh, components, positions, geometry.spacing, run);
   HoleOptions keep_largest;
   keep_largest.policy = HolePolicy::KEEP_LARGEST;
-  chooseOpenLoops (loops,
-                   judgeLoops (consensus.mesh, loops, positions, geometry.neighbors,
-                               consensus.normals, limits.open_loops, run),
-                   components.count, keep_largest, 1.0);
+  judgeLoops (consensus.mesh, loops, positions, geometry.neighbors, consensus.normals,
+              limits.open_loops, run);
+  chooseOpenLoops (loops, components.count, keep_largest, 1.0);
 
   // Beyond a ragged boundary there are points with gaps in their stars.
   std::vector<Index> candidates;
-  for (const Gap& gap : findGaps (geometry.stars, geometry.spacing, limits.gap_ratio, run))
+  for (const Gap& gap :
+       findGaps (geometry.stars, geometry.spacing, limits.consensus.gap_ratio, run))
     candidates.push_back (gap.point);
   Boundary boundary;
   const auto largest = std::max_element (component_points.begin (), component_points.end ());
@@ -101,32 +100,50 @@ closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometr
   const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
-  const std::vector<LoopJudgement> judgements =
-      holes.policy == HolePolicy::AUTO
-          ? widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals,
-                        limits.open_loops, limits.hole_widening, run)
-          : judgeLoops (mesh, loops, positions, geometry.neighbors, normals, limits.open_loops,
-                        run);
-  chooseOpenLoops (loops, judgements, components.count, holes, 1.0 / points.scale);
+  if (holes.policy == HolePolicy::AUTO)
+    widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals,
+                limits.open_loops, limits.hole_widening, run);
+  else
+    judgeLoops (mesh, loops, positions, geometry.neighbors, normals, limits.open_loops, run);
+  chooseOpenLoops (loops, components.count, holes, 1.0 / points.scale);
   const TriangleCost cost (positions, normals, nullptr, limits.finish.cost);
   surface.holes_filled = fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
-  for (std::size_t i = 0; i < loops.size (); ++i)
-    if (isDoubtful (judgements[i], limits.open_loops))
-      surface.doubtful_loops.push_back ({std::move (loops[i]), judgements[i]});
+  for (BoundaryLoop& loop : loops)
+    if (isDoubtful (loop.judgement, limits.open_loops))
+      surface.doubtful_loops.push_back (std::move (loop));
+}
+
+// Orients the normals of points without triangle like the mean normal of the vertices among their
+// neighbours.
+void
+orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
+                      std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+{
+  ProgressLoop progress (run);
+  for (Index p = 0; p < normals.size (); ++p) {
+    progress.next ();
+    if (mesh.triangle_of[p] != NONE)
+      continue;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+    for (const Index q : neighbors.row (p))
+      if (mesh.triangle_of[q] != NONE)
+        sum += normals[q];
+    if (normals[p].dot (sum) < 0.0F)
+      normals[p] = -normals[p];
+  }
 }
 
 // Leaves out the loops that were to stay open, but are no boundary any more.
 void
-leaveOutClosed (const TriangleMesh& mesh, std::vector<JudgedLoop>& loops, const RunContext& run)
+leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const RunContext& run)
 {
   std::vector<std::uint8_t> is_boundary (mesh.triangle_of.size (), 0);
   for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
     for (const Index p : loop)
       is_boundary[p] = 1;
-  const auto isClosed = [&is_boundary] (const JudgedLoop& judged) {
-    const std::vector<Index>& points = judged.loop.points;
-    return judged.loop.keep_open && std::any_of (points.begin (), points.end (),
-                                                 [&] (Index p) { return is_boundary[p] == 0; });
+  const auto isClosed = [&is_boundary] (const BoundaryLoop& loop) {
+    return loop.keep_open && std::any_of (loop.points.begin (), loop.points.end (),
+                                          [&] (Index p) { return is_boundary[p] == 0; });
   };
   loops.erase (std::remove_if (loops.begin (), loops.end (), isClosed), loops.end ());
 }
@@ -153,8 +170,16 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   orientMissingNormals (surface.mesh, geometry.neighbors, geometry.stars.normals, run);
 
   run.beginStage (Stage::FLIPS);
-  surface.finish =
-      finishMesh (surface.mesh, points.positions, geometry, settings.finishSettings (), run);
+  FinishSettings finish;
+  finish.flip_edges = settings.flip_edges;
+  finish.open_boundary = true;
+  finish.find_crossing = true;
+  finish.remake_sheets = settings.remake_sheets;
+  finish.facing = settings.facing;
+  finish.limits = limits.finish;
+  if (settings.holes.policy != HolePolicy::AUTO && settings.holes.policy != HolePolicy::CLOSE_ALL)
+    finish.limits.remaking.disturbance.closes_gaps = false;
+  surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
   if (surface.finish.remade_points > 0)
     leaveOutClosed (surface.mesh, surface.doubtful_loops, run);
   return surface;

@@ -25,22 +25,18 @@ struct ConsensusLimits
                                     ///< (see findOrientationSeam). Measured: scans of two-sided
                                     ///< surfaces had rows of up to 5, Moebius strips 4 spacings
                                     ///< wide rows of 8, and strips 12 spacings wide rows of 37
+  double gap_ratio = 2.0; ///< circumradius over local spacing above which a star triangle is a gap
+                          ///< (see findGaps). Chosen by hand; no measurement is recorded
 };
 
-/// A boundary loop of the consensus mesh, and its judgement.
-struct JudgedLoop
-{
-  BoundaryLoop loop;
-  LoopJudgement judgement;
-};
-
-/// The limits of all steps of consensusLoop.
-struct ConsensusLoopLimits
+/// The limits of all steps of makeSurface and consensusLoop.
+struct SurfaceLimits
 {
   ConsensusLimits consensus;
   OpenLoopLimits open_loops;
-  double gap_ratio = 2.0; ///< circumradius over local spacing above which a star triangle is a gap
-                          ///< (see findGaps). Chosen by hand; no measurement is recorded
+  HoleWideningLimits hole_widening;
+  HoleFillingLimits hole_filling;
+  FinishLimits finish;
 };
 
 /// Makes the consensus mesh and takes the loop of its largest component that
@@ -51,17 +47,7 @@ struct ConsensusLoopLimits
 /// \return the loop; its candidates are the points with gaps and on any loop
 Boundary
 consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-               const RunContext& run, const ConsensusLoopLimits& limits = {});
-
-/// The limits of all steps of makeSurface.
-struct SurfaceLimits
-{
-  ConsensusLimits consensus;
-  OpenLoopLimits open_loops;
-  HoleWideningLimits hole_widening;
-  HoleFillingLimits hole_filling;
-  FinishLimits finish;
-};
+               const RunContext& run, const SurfaceLimits& limits = {});
 
 struct SurfaceSettings
 {
@@ -70,20 +56,6 @@ struct SurfaceSettings
   bool remake_sheets = true; ///< make zones anew where several sheets are near
   SurfaceLimits limits = {};
   FacingHints facing = {};
-
-  FinishSettings finishSettings () const
-  {
-    FinishSettings finish;
-    finish.flip_edges = flip_edges;
-    finish.open_boundary = true;
-    finish.find_crossing = true;
-    finish.remake_sheets = remake_sheets;
-    finish.facing = facing;
-    finish.limits = limits.finish;
-    if (holes.policy != HolePolicy::AUTO && holes.policy != HolePolicy::CLOSE_ALL)
-      finish.limits.remaking.disturbance.closes_gaps = false;
-    return finish;
-  }
 };
 
 /// The mesh of a surface and how it was made.
@@ -92,7 +64,8 @@ struct Surface
   TriangleMesh mesh;
   MeshFinish finish;
   std::size_t holes_filled = 0;
-  std::vector<JudgedLoop> doubtful_loops; ///< in the order of their smallest points, see isDoubtful
+  std::vector<BoundaryLoop>
+      doubtful_loops;                     ///< in the order of their smallest points, see isDoubtful
   std::vector<Triangle> orientation_seam; ///< where a one-sided surface was cut open (see
                                           ///< findOrientationSeam); otherwise empty
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus.h"
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
@@ -79,34 +80,22 @@ private:
     ring_.clear ();
     for (Index t : around_.row (p))
       if (kept_[t] != 0)
-        ring_.push_back ({t, static_cast<Index> (ring_.size ())});
+        ring_.push_back (t);
     dropDoubleEdges (p);
     if (ring_.size () < 2)
       return;
-    // Labels fans by spreading the smallest label over shared edges; rings are short.
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (Spoke& a : ring_)
-        for (Spoke& b : ring_)
-          if (b.fan < a.fan && shareEdge (p, a.triangle, b.triangle)) {
-            a.fan = b.fan;
-            changed = true;
-          }
-    }
-    Index best = 0, best_weight = 0;
-    for (Index fan = 0; fan < ring_.size (); ++fan) {
-      Index weight = 0;
-      for (const Spoke& spoke : ring_)
-        if (spoke.fan == fan)
-          weight += votes_[spoke.triangle];
-      if (weight > best_weight) {
-        best = fan;
-        best_weight = weight;
-      }
-    }
-    for (const Spoke& spoke : ring_)
-      if (spoke.fan != best)
-        drop (spoke.triangle);
+    DisjointSets fans (ring_.size ());
+    for (Index a = 0; a < ring_.size (); ++a)
+      for (Index b = 0; b < a; ++b)
+        if (shareEdge (p, ring_[a], ring_[b]))
+          fans.join (a, b);
+    std::vector<Index> weight (ring_.size (), 0);
+    for (Index i = 0; i < ring_.size (); ++i)
+      weight[fans.find (i)] += votes_[ring_[i]];
+    const auto best = std::max_element (weight.begin (), weight.end ()) - weight.begin ();
+    for (Index i = 0; i < ring_.size (); ++i)
+      if (fans.find (i) != static_cast<Index> (best))
+        drop (ring_[i]);
   }
 
   // Of triangles with the same directed edge at p, keeps the one of most votes. They occur at sharp
@@ -115,18 +104,15 @@ private:
   void dropDoubleEdges (Index p)
   {
     for (std::size_t i = 0; i < ring_.size (); ++i)
-      for (std::size_t j = i + 1; j < ring_.size () && kept_[ring_[i].triangle] != 0; ++j) {
-        const Index t = ring_[i].triangle, u = ring_[j].triangle;
+      for (std::size_t j = i + 1; j < ring_.size () && kept_[ring_[i]] != 0; ++j) {
+        const Index t = ring_[i], u = ring_[j];
         if (kept_[u] != 0 &&
             (after (t, p, 1) == after (u, p, 1) || after (t, p, 2) == after (u, p, 2)))
           drop (votes_[u] > votes_[t] ? t : u);
       }
     ring_.erase (
-        std::remove_if (ring_.begin (), ring_.end (),
-                        [this] (const Spoke& spoke) { return kept_[spoke.triangle] == 0; }),
+        std::remove_if (ring_.begin (), ring_.end (), [this] (Index t) { return kept_[t] == 0; }),
         ring_.end ());
-    for (Index i = 0; i < ring_.size (); ++i)
-      ring_[i].fan = i;
   }
 
   // The corner of triangle t that comes one or two steps after p.
@@ -145,25 +131,14 @@ private:
 
   bool shareEdge (Index p, Index t, Index u) const
   {
-    for (Index q : triangles_[t])
-      if (q != p)
-        for (Index r : triangles_[u])
-          if (q == r)
-            return true;
-    return false;
+    return after (t, p, 1) == after (u, p, 2) || after (t, p, 2) == after (u, p, 1);
   }
-
-  // A triangle around the current point and the label of its fan.
-  struct Spoke
-  {
-    Index triangle, fan;
-  };
 
   std::vector<Triangle>& triangles_;
   const std::vector<std::uint8_t>& votes_;
   std::vector<std::uint8_t> kept_;
-  const CsrLists around_; // of each point, its triangles
-  std::vector<Spoke> ring_;
+  const CsrLists around_;   // of each point, its triangles
+  std::vector<Index> ring_; // triangles around the current point
   std::vector<Index> dirty_;
 };
 

@@ -6,58 +6,17 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
-// Votes of the candidates between two sets of points, named by their representatives.
-struct OrientationVote
-{
-  Index a, b; // a < b
-  int weight; // positive for the same side, negative for opposite sides
-};
-
 bool
 runsClockwise (std::uint8_t clockwise, std::size_t corner)
 {
   return ((clockwise >> corner) & 1U) != 0;
-}
-
-// Appends the votes of one candidate on the sets of its corners.
-void
-castVotes (const Candidate& candidate, SignedSets& sides, std::vector<OrientationVote>& votes)
-{
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1U) % 3U;
-    const SignedSets::Place a = sides.find (candidate.corners[i]),
-                            b = sides.find (candidate.corners[j]);
-    if (a.root == b.root)
-      continue;
-    const bool opposite = (runsClockwise (candidate.clockwise, i) !=
-                           runsClockwise (candidate.clockwise, j)) != (a.flipped != b.flipped);
-    votes.push_back ({std::min (a.root, b.root), std::max (a.root, b.root),
-                      opposite ? -candidate.votes : candidate.votes});
-  }
-}
-
-// Adds up the votes on each pair of sets.
-void
-addUp (std::vector<OrientationVote>& votes)
-{
-  std::stable_sort (votes.begin (), votes.end (),
-                    [] (const OrientationVote& p, const OrientationVote& q) {
-                      return std::tie (p.a, p.b) < std::tie (q.a, q.b);
-                    });
-  std::size_t pairs = 0;
-  for (const OrientationVote& vote : votes) {
-    if (pairs > 0 && votes[pairs - 1].a == vote.a && votes[pairs - 1].b == vote.b)
-      votes[pairs - 1].weight += vote.weight;
-    else
-      votes[pairs++] = vote;
-  }
-  votes.resize (pairs);
 }
 
 } // namespace
@@ -87,28 +46,37 @@ void
 Orientation::vote (const Candidate* const* first, const Candidate* const* last,
                    const RunContext& run)
 {
-  std::vector<OrientationVote> votes;
   ProgressLoop progress (run);
-  do {
-    votes.clear ();
+  while (true) {
+    // Of two sets, by their representatives: positive for the same side, negative for opposite ones.
+    std::map<std::pair<Index, Index>, int> sums;
     for (const Candidate* const* candidate = first; candidate != last; ++candidate) {
       progress.next ();
-      castVotes (**candidate, sides_, votes);
+      const Candidate& c = **candidate;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1U) % 3U;
+        const SignedSets::Place a = sides_.find (c.corners[i]), b = sides_.find (c.corners[j]);
+        const bool opposite = (runsClockwise (c.clockwise, i) != runsClockwise (c.clockwise, j)) !=
+                              (a.flipped != b.flipped);
+        if (a.root != b.root)
+          sums[std::minmax (a.root, b.root)] += opposite ? -c.votes : c.votes;
+      }
     }
-    addUp (votes);
-    std::stable_sort (votes.begin (), votes.end (),
-                      [] (const OrientationVote& p, const OrientationVote& q) {
-                        return std::abs (p.weight) > std::abs (q.weight);
-                      });
+    if (sums.empty ())
+      return;
+    std::vector<std::pair<std::pair<Index, Index>, int>> votes (sums.begin (), sums.end ());
+    std::stable_sort (votes.begin (), votes.end (), [] (const auto& one, const auto& other) {
+      return std::abs (one.second) > std::abs (other.second);
+    });
     std::unordered_set<Index> joined;
-    for (const OrientationVote& vote : votes) {
+    for (const auto& [sets, weight] : votes) {
       progress.next ();
-      const bool is_first_of_a = joined.insert (vote.a).second;
-      const bool is_first_of_b = joined.insert (vote.b).second;
+      const bool is_first_of_a = joined.insert (sets.first).second;
+      const bool is_first_of_b = joined.insert (sets.second).second;
       if (is_first_of_a || is_first_of_b)
-        sides_.join (vote.a, vote.b, vote.weight < 0);
+        sides_.join (sets.first, sets.second, weight < 0);
     }
-  } while (!votes.empty ());
+  }
 }
 
 Triangle

@@ -207,8 +207,8 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   const Neighborhood neighborhood = settings.options.neighbors.kind;
   if (neighborhood == Neighborhood::NEAREST || neighborhood == Neighborhood::BALL) {
     star_settings.kind = StarKind::ALL;
-    geometry.stars =
-        makeStars (positions, geometry.neighbors, geometry.stars.normals, star_settings, run);
+    geometry.stars = makeStars (positions, geometry.neighbors, geometry.stars.normals,
+                                Rows::all (positions.size ()), star_settings, run);
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.

@@ -170,14 +170,4 @@ triangulateHull (const std::vector<Eigen::Vector2d>& uv)
   return makeMesh (delaunay, uv.size ());
 }
 
-bool
-isInCircle (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-            const Eigen::Vector2d& d)
-{
-  static const Delaunay none;
-  constexpr bool DECIDES_TIES = true;
-  return none.side_of_oriented_circle (toPoint (a), toPoint (b), toPoint (c), toPoint (d),
-                                       DECIDES_TIES) == CGAL::ON_POSITIVE_SIDE;
-}
-
 } // namespace pcl::floater

@@ -26,10 +26,4 @@ triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Inde
 TriangleMesh
 triangulateHull (const std::vector<Eigen::Vector2d>& uv);
 
-/// Whether d lies within the circle through a, b and c, which are anti-clockwise; exact. For four
-/// points on one circle, consistent with the triangulations above.
-bool
-isInCircle (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-            const Eigen::Vector2d& d);
-
 } // namespace pcl::floater

@@ -220,9 +220,11 @@ layOut (const CollapsedRegion& region, const PlaneDisc& around, Surroundings& wi
   }
   for (const Index p : disc.points)
     with.number[p] = NONE;
-  Parameterization parameterization = parameterize (
-      disc.positions, nearest, makeStars (disc.positions, nearest, normals, with.stars, with.run),
-      disc.loop, with.options, with.run, with.limits);
+  Parameterization parameterization =
+      parameterize (disc.positions, nearest,
+                    makeStars (disc.positions, nearest, normals, Rows::all (disc.positions.size ()),
+                               with.stars, with.run),
+                    disc.loop, with.options, with.run, with.limits);
   if (parameterization.problem)
     return disc;
   disc.uv = std::move (parameterization.uv);

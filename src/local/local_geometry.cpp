@@ -16,7 +16,7 @@ beyondNeighbors (const LocalPlanes& planes, const StarSettings& settings)
 {
   if (!settings.reach_beyond)
     return {};
-  return BeyondNeighbors{*planes.tree, planes.spacing, planes.beside, settings.reach};
+  return BeyondNeighbors{*planes.tree, planes.spacing, planes.beside};
 }
 } // namespace
 
@@ -25,21 +25,20 @@ fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> 
                 const StarSettings& settings, const RunContext& run, const PlaneLimits& limits)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const Rows all = Rows::all (positions.size ());
   LocalPlanes planes;
   planes.neighbors = std::move (neighbors);
-  planes.spacing = localSpacing (positions, planes.neighbors, run);
+  planes.spacing = localSpacing (positions, planes.neighbors, all, run);
   if (settings.reach_beyond) {
     if (known)
       planes.tree.emplace (std::move (*known));
     else
       planes.tree.emplace (positions, run, PointOrder::ALONG_CURVE);
-    planes.beside =
-        findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
-                         Rows::all (positions.size ()), limits.least_aspect, settings.reach, run);
+    planes.beside = findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree, all,
+                                     limits.least_aspect, settings.reach, run);
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
-  planes.normals =
-      fitTangentPlanes (positions, planes.neighbors, Rows::all (positions.size ()), run, limits);
+  planes.normals = fitTangentPlanes (positions, planes.neighbors, all, run, limits);
   for (std::size_t p = 0; p < points.normals.size (); ++p)
     if (!points.normals[p].isZero (0.0F))
       planes.normals[p] = points.normals[p];
@@ -60,13 +59,14 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
                    const RunContext& run, std::optional<Stars> begun)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const Rows all = Rows::all (positions.size ());
   LocalGeometry geometry;
   if (!points.projected.empty ())
-    geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
+    geometry.own_spacing = localSpacing (points.positions, planes.neighbors, all, run);
   if (!begun) {
     const std::optional<BeyondNeighbors> beyond = beyondNeighbors (planes, settings);
-    begun = beginStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
-                        settings, run, beyond ? &*beyond : nullptr);
+    begun = makeStars (positions, planes.neighbors, planes.normals, all, settings, run,
+                       beyond ? &*beyond : nullptr);
   }
   geometry.stars = settings.reach_beyond ? finishStars (positions, planes.neighbors, planes.normals,
                                                         std::move (*begun), settings, run)

@@ -54,7 +54,7 @@ makeStarsOf (const std::vector<Index>& centres, const Points& points, const Loca
              const StarSettings& settings, const RunContext& run);
 
 /// Stars and spacing by the working positions of the points. O(n k log k).
-/// \param begun results of beginStars () for all points, if known; then `planes` needs no tree
+/// \param begun results of makeStars () for all points, if known; then `planes` needs no tree
 LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
                    const RunContext& run, std::optional<Stars> begun = std::nullopt);

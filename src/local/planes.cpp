@@ -29,13 +29,6 @@ localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   return spacing;
 }
 
-std::vector<float>
-localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run)
-{
-  return localSpacing (positions, neighbors, Rows::all (positions.size ()), run);
-}
-
 namespace {
 constexpr std::size_t ADDED = 2; // neighbours added at a time, while all are collinear
 

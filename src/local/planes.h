@@ -34,13 +34,8 @@ onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
 
 /// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
 /// triangulation that is the length of an edge. O(n).
-/// \param neighbors nearest first
-std::vector<float>
-localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run);
-
-/// localSpacing () of the points in `rows`; 0 for other points.
-/// \param neighbors of the points in `rows`
+/// \param neighbors of the points in `rows`, nearest first
+/// \param rows      points to compute; others have 0
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
               const Rows& rows, const RunContext& run);

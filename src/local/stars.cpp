@@ -34,7 +34,7 @@ public:
   {
     if (beyond != nullptr)
       reach_.emplace (positions, normals, beyond->spacing, beyond->tree, settings.limits,
-                      beyond->limits);
+                      settings.reach);
   }
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
@@ -213,9 +213,9 @@ private:
 } // namespace
 
 Stars
-beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
+makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+           const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+           const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
 {
   const std::size_t n = positions.size ();
   StarsInMaking made (rows.size (), n, settings.with_offsets);
@@ -279,15 +279,6 @@ finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neig
   made.stars.reach = std::move (begun.reach);
   begun = {};
   return made.end ();
-}
-
-Stars
-makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run)
-{
-  return beginStars (positions, neighbors, normals, Rows::all (positions.size ()), settings, run,
-                     nullptr);
 }
 
 Stars

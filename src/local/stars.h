@@ -35,7 +35,6 @@ struct BeyondNeighbors
   const KdTree& tree;                ///< of the positions
   const std::vector<float>& spacing; ///< see localSpacing
   const BesideLines& beside;         ///< its neighbours are already at the ends of the given rows
-  ReachLimits limits{};
 };
 
 /// Stars of the points in their tangent planes: the neighbours connected to the centre,
@@ -54,7 +53,7 @@ struct Stars
                             ///< star was to reach farther
 };
 
-/// Stars of all points. The sheet filter removes neighbours on another sheet of the surface, in
+/// Stars of some points. The sheet filter removes neighbours on another sheet of the surface, in
 /// tiers:
 /// 1. remove a neighbour whose direction leaves either point's plane by more than 49 degrees
 ///   (sine 0.75) or whose normal is more than 72 degrees away (cosine 0.3);
@@ -66,23 +65,19 @@ struct Stars
 ///
 /// O(n k log k).
 /// \param normals of each point; stars of tier 2 replace theirs
+/// \param rows    points whose stars are made; arrays have an entry for every point. The normals of
+///                the points around are read
+/// \param beyond  for stars that may reach beyond the neighbours (see StarReach), which finishStars ()
+///                completes
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-           const RunContext& run);
+           const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
+           const StarSettings& settings, const RunContext& run,
+           const BeyondNeighbors* beyond = nullptr);
 
-/// First step of stars that may reach beyond the neighbours (see StarReach): each star by itself, also
-/// for a piece of a cloud. Arrays have an entry for
-/// each of its points; stars of `rows` are made. The normals of the points around are read and must
-/// be in the piece.
-Stars
-beginStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-            const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond);
-
-/// Second step, for all stars: sets each reach to the maximum around, then removes far neighbours
+/// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum around, then removes far neighbours
 /// across a hole again: those too far for the reach of both ends.
-/// \param begun results of the first step
+/// \param begun results of makeStars ()
 Stars
 finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
              const std::vector<Eigen::Vector3f>& normals, Stars begun, const StarSettings& settings,

@@ -40,25 +40,20 @@ public:
 
   std::size_t leaves () const { return levels_.front ().size (); }
 
-  /// Calls visit (i, j) for all boxes i of a range of leaves and j that overlap or touch, i < j.
+  /// Calls visit (i, j) for all boxes i of some consecutive leaves and j that overlap or touch, i < j.
   /// All leaves together give each pair once.
   template <typename Visit>
   void forOverlaps (std::size_t first, std::size_t last, Visit&& visit) const
   {
-    constexpr std::size_t GROUP = 8; // consecutive leaves, with mostly the same near boxes
+    Box around;
+    for (std::size_t leaf = first; leaf < last; ++leaf)
+      around.extend (levels_.front ()[leaf]);
     std::vector<std::size_t> near;
-    for (std::size_t begin = first; begin < last; begin += GROUP) {
-      const std::size_t end = std::min (last, begin + GROUP);
-      Box around;
-      for (std::size_t leaf = begin; leaf < end; ++leaf)
-        around.extend (levels_.front ()[leaf]);
-      near.clear ();
-      forLeaves (around, begin, [&near] (std::size_t other) { near.push_back (other); });
-      for (std::size_t leaf = begin; leaf < end; ++leaf)
-        for (const std::size_t other : near)
-          if (other >= leaf && levels_.front ()[leaf].overlaps (levels_.front ()[other]))
-            compare (leaf, other, visit);
-    }
+    forLeaves (around, first, [&near] (std::size_t other) { near.push_back (other); });
+    for (std::size_t leaf = first; leaf < last; ++leaf)
+      for (const std::size_t other : near)
+        if (other >= leaf && levels_.front ()[leaf].overlaps (levels_.front ()[other]))
+          compare (leaf, other, visit);
   }
 
   /// Calls visit (j) for all boxes j that overlap or touch a given box, ascending.

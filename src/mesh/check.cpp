@@ -20,19 +20,16 @@ spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
 {
   std::vector<float> spacing (positions.size (), 0.0F);
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Index> fan;
+    std::vector<Index> fan, ring;
     std::vector<float> lengths;
     for (auto p = static_cast<Index> (first); p < last; ++p) {
       if (mesh.triangle_of[p] == NONE)
         continue;
-      mesh.fan (p, fan);
+      if (mesh.fan (p, fan, ring))
+        ring.push_back (ring.front ()); // one of its edges counts twice
       lengths.clear ();
-      const auto add = [&] (Index q) {
+      for (const Index q : ring)
         lengths.push_back (static_cast<float> ((positions[q] - positions[p]).norm ()));
-      };
-      for (const Index t : fan)
-        add (mesh.triangles[t][TriangleMesh::next (mesh.sideOf (t, p))]);
-      add (mesh.triangles[fan.back ()][TriangleMesh::previous (mesh.sideOf (fan.back (), p))]);
       spacing[p] = median (lengths);
     }
   });
@@ -90,85 +87,56 @@ struct Figures
   }
 };
 
-class TriangleCheck
+bool
+isDegenerate (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+              double precision, double flat_height)
 {
-public:
-  TriangleCheck (const TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
-                 const CheckLimits& limits)
-      : mesh_ (mesh), positions_ (points.positions), spacing_ (spacing), limits_ (limits),
-        precision_ (limits.precision * points.diagonal)
-  {
-  }
+  const double sqr_longest =
+      std::max ({(b - a).squaredNorm (), (c - a).squaredNorm (), (c - b).squaredNorm ()});
+  const double sqr_height = areaVector (a, b, c).squaredNorm () / sqr_longest;
+  return !(sqr_height > precision * precision ||
+           sqr_height > flat_height * flat_height * sqr_longest);
+}
 
-  void look (Index t, Figures& found) const
-  {
-    const auto [a, b, c] = mesh_.triangles[t];
-    if (!isProper (mesh_.triangles[t], positions_.size ())) {
-      found.broken.add ({1, std::min ({a, b, c})});
-      return;
-    }
-    if (isDegenerate (positions_[a], positions_[b], positions_[c]))
-      found.degenerate.add ({1, std::min ({a, b, c})});
-    for (std::uint8_t side = 0; side < 3; ++side)
-      lookAtEdge ({t, side}, found);
-  }
+// Whether the triangle across an edge has it in the other direction, and this one across it.
+bool
+isLinked (const TriangleMesh& mesh, MeshEdge e)
+{
+  if (mesh.neighbors[e.triangle][e.side] >= mesh.triangles.size ())
+    return false;
+  const MeshEdge mate = mesh.mate (e);
+  return mesh.from (mate) == mesh.to (e) && mesh.to (mate) == mesh.from (e) &&
+         mesh.neighbors[mate.triangle][mate.side] == e.triangle;
+}
 
-private:
-  bool isDegenerate (const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                     const Eigen::Vector3d& c) const
-  {
-    const double sqr_longest =
-        std::max ({(b - a).squaredNorm (), (c - a).squaredNorm (), (c - b).squaredNorm ()});
-    const double sqr_height = areaVector (a, b, c).squaredNorm () / sqr_longest;
-    return !(sqr_height > precision_ * precision_ ||
-             sqr_height > limits_.flat_height * limits_.flat_height * sqr_longest);
+void
+lookAtEdge (MeshEdge e, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const std::vector<float>& spacing, double long_edge, Figures& found)
+{
+  const auto [p, q] = std::minmax ({mesh.from (e), mesh.to (e)});
+  const Index other = mesh.neighbors[e.triangle][e.side];
+  if (other != NONE && !isLinked (mesh, e)) {
+    found.broken.add ({1, p});
+    return;
   }
-
-  void lookAtEdge (MeshEdge e, Figures& found) const
-  {
-    const Index from = mesh_.from (e), to = mesh_.to (e);
-    const Index p = std::min (from, to), q = std::max (from, to);
-    const Index other = mesh_.neighbors[e.triangle][e.side];
-    if (other != NONE && !isLinked (e)) {
-      found.broken.add ({1, p});
-      return;
-    }
-    if (other < e.triangle)
-      return;
-    ++found.edges;
-    const double scale = 0.5 * (static_cast<double> (spacing_[p]) + spacing_[q]);
-    LongEdge edge{0.0, {p, q}};
-    if (scale > 0.0)
-      edge.sqr_length = (positions_[q] - positions_[p]).squaredNorm () / (scale * scale);
-    found.longest.take (edge);
-    if (other == NONE)
-      return;
-    if (edge.sqr_length > limits_.long_edge * limits_.long_edge) {
-      found.long_edges.add ({1, p});
-      found.longest_inside.take (edge);
-    }
-    if (isFold (areaVectorOf (mesh_.triangles[e.triangle], positions_),
-                areaVectorOf (mesh_.triangles[other], positions_)))
-      found.folds.add ({1, p});
+  if (other < e.triangle)
+    return;
+  ++found.edges;
+  const double scale = 0.5 * (static_cast<double> (spacing[p]) + spacing[q]);
+  LongEdge edge{0.0, {p, q}};
+  if (scale > 0.0)
+    edge.sqr_length = (positions[q] - positions[p]).squaredNorm () / (scale * scale);
+  found.longest.take (edge);
+  if (other == NONE)
+    return;
+  if (edge.sqr_length > long_edge * long_edge) {
+    found.long_edges.add ({1, p});
+    found.longest_inside.take (edge);
   }
-
-  // Whether the triangle across an edge has it in the other direction, and this one across it.
-  bool isLinked (MeshEdge e) const
-  {
-    const Index other = mesh_.neighbors[e.triangle][e.side];
-    if (other >= mesh_.triangles.size ())
-      return false;
-    const MeshEdge mate = mesh_.mate (e);
-    return mesh_.from (mate) == mesh_.to (e) && mesh_.to (mate) == mesh_.from (e) &&
-           mesh_.neighbors[mate.triangle][mate.side] == e.triangle;
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<float>& spacing_;
-  const CheckLimits& limits_;
-  double precision_;
-};
+  if (isFold (areaVectorOf (mesh.triangles[e.triangle], positions),
+              areaVectorOf (mesh.triangles[other], positions)))
+    found.folds.add ({1, p});
+}
 
 // Calls body (i, found) for 0 to count, on all threads.
 template <typename Found, typename Body>
@@ -266,9 +234,19 @@ MeshExamination
 checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
            const RunContext& run, const CheckLimits& limits)
 {
-  const TriangleCheck triangles (mesh, points, spacing, limits);
-  const auto figures = sumOver<Figures> (
-      mesh.triangles.size (), run, [&] (Index t, Figures& range) { triangles.look (t, range); });
+  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const auto look = [&, precision = limits.precision * points.diagonal] (Index t, Figures& range) {
+    const auto [a, b, c] = mesh.triangles[t];
+    if (!isProper (mesh.triangles[t], positions.size ())) {
+      range.broken.add ({1, std::min ({a, b, c})});
+      return;
+    }
+    if (isDegenerate (positions[a], positions[b], positions[c], precision, limits.flat_height))
+      range.degenerate.add ({1, std::min ({a, b, c})});
+    for (std::uint8_t side = 0; side < 3; ++side)
+      lookAtEdge ({t, side}, mesh, positions, spacing, limits.long_edge, range);
+  };
+  const auto figures = sumOver<Figures> (mesh.triangles.size (), run, look);
   MeshExamination found;
   MeshCheck& check = found.check;
   check.done = true;

@@ -206,15 +206,10 @@ private:
     for (Index t = 0; t < mesh_.triangles.size (); ++t)
       sampler.add (t, areaVectorOf (mesh_.triangles[t], positions_).norm (),
                    middleOf (mesh_.triangles[t], positions_), Eigen::Vector3d::UnitZ (), lines);
-    std::size_t free = 0;
-    for (const SightLine& line : lines) {
-      bool is_free = true;
-      rays ().forHits (line.middle, sensor - line.middle, [&] (Index t, double at) {
-        is_free = t == line.triangle || at >= 1.0;
-        return !is_free;
-      });
-      free += is_free ? 1 : 0;
-    }
+    rays ();
+    const auto free = std::count_if (lines.begin (), lines.end (), [&] (const SightLine& line) {
+      return isFree (line, sensor - line.middle, [] (Index, double at) { return at < 1.0; });
+    });
     return static_cast<double> (free) >= limits_.seen_share * static_cast<double> (lines.size ());
   }
 
@@ -223,6 +218,19 @@ private:
     if (!rays_)
       rays_.emplace (mesh_.triangles, positions_, run_);
     return *rays_;
+  }
+
+  // Whether nothing blocks a ray from a line's triangle. Needs rays ().
+  // \param blocks (t, at): whether a triangle does, at this multiple of the direction
+  template <typename Blocks>
+  bool isFree (const SightLine& line, const Eigen::Vector3d& direction, Blocks&& blocks) const
+  {
+    bool is_free = true;
+    rays_->forHits (line.middle, direction, [&] (Index t, double at) {
+      is_free = t == line.triangle || !blocks (t, at);
+      return !is_free;
+    });
+    return is_free;
   }
 
   // Number of free lines of each object on either side.
@@ -234,21 +242,18 @@ private:
   std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
   {
     const std::vector<SightLine> lines = linesThrough (objects);
-    const TriangleRays& tree = rays ();
-    const auto isFree = [&] (std::size_t i, const Eigen::Vector3d& direction) {
-      bool is_free = true;
-      tree.forHits (lines[i].middle, direction, [&] (Index t, double) {
-        is_free = t == lines[i].triangle || !blocks (objectOf (lines[i].triangle), objectOf (t));
-        return !is_free;
-      });
-      return is_free;
-    };
+    rays ();
     constexpr std::size_t PER_TASK = 32;
     std::vector<std::array<bool, 2>> are_free (lines.size ()); // towards the front, and the back
     parallelTasks (run_, (lines.size () + PER_TASK - 1) / PER_TASK, [&] (std::size_t task) {
       for (std::size_t i = task * PER_TASK; i < std::min (lines.size (), (task + 1) * PER_TASK);
-           ++i)
-        are_free[i] = {isFree (i, lines[i].direction), isFree (i, -lines[i].direction)};
+           ++i) {
+        const auto is_blocking = [&, own = objectOf (lines[i].triangle)] (Index t, double) {
+          return blocks (own, objectOf (t));
+        };
+        are_free[i] = {isFree (lines[i], lines[i].direction, is_blocking),
+                       isFree (lines[i], -lines[i].direction, is_blocking)};
+      }
     });
     std::vector<Free> free (judged_.size ());
     for (std::size_t i = 0; i < lines.size (); ++i) {

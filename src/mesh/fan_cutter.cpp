@@ -5,23 +5,6 @@
 #include <algorithm>
 
 namespace pcl::floater {
-void
-FanCutter::setFan (Index v, Fan& fan) const
-{
-  fan.centre = v;
-  mesh_.fan (v, fan.triangles);
-  fan.ring.clear ();
-  Index next = NONE;
-  for (const Index t : fan.triangles) {
-    const std::uint8_t side = mesh_.sideOf (t, v);
-    fan.ring.push_back (mesh_.triangles[t][TriangleMesh::next (side)]);
-    next = mesh_.triangles[t][TriangleMesh::previous (side)];
-  }
-  fan.is_closed = next == fan.ring.front ();
-  if (!fan.is_closed)
-    fan.ring.push_back (next);
-}
-
 Cut
 FanCutter::cutAt (const Fan& fan, const Return& place)
 {

@@ -13,7 +13,6 @@ namespace pcl::floater {
 /// places k and k + 1 as its other corners. Around a closed fan, places count on.
 struct Fan
 {
-  Index centre = NONE;
   std::vector<Index> triangles;
   std::vector<Index> ring;
   bool is_closed = false;
@@ -48,7 +47,7 @@ class FanCutter
 public:
   explicit FanCutter (TriangleMesh& mesh) : mesh_ (mesh) {}
 
-  void setFan (Index v, Fan& fan) const;
+  void setFan (Index v, Fan& fan) const { fan.is_closed = mesh_.fan (v, fan.triangles, fan.ring); }
 
   /// The cut of a fan that gives a point its part back.
   static Cut cutAt (const Fan& fan, const Return& place);

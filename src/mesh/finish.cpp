@@ -7,8 +7,6 @@
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // Fractions of the stage's time at the end of these steps. Measured on clean clouds.
@@ -29,7 +27,7 @@ repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
-  finish.folds = finish.folds_after_flips = findFolds (mesh, positions, run).size ();
+  finish.folds = findFolds (mesh, positions, run).size ();
   const double edges = 1.5 * static_cast<double> (mesh.triangles.size ());
   finish.is_repairable = !settings.flip_edges ||
                          static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
@@ -59,8 +57,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     if (settings.remake_sheets && finish.crossing->untested.empty ())
       finish.remade_points =
           remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
-                       *finish.crossing, settings.limits.remaking, run)
-              .points;
+                       *finish.crossing, settings.limits.remaking, run);
     if (finish.remade_points > 0) {
       if (flipFolds (mesh, positions, *finish.crossing, run) > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);

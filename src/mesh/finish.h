@@ -45,10 +45,9 @@ struct FinishSettings
 struct MeshFinish
 {
   std::size_t flips = 0;
-  std::size_t folds_after_flips = 0; ///< folded edges before the repair (see findFolds)
-  std::size_t folds = 0;             ///< remaining folded edges
-  bool is_repairable = true;         ///< false: more folds than FinishSettings::largest_fold_share
-  std::size_t remade_points = 0;     ///< whose triangles were made anew in space
+  std::size_t folds = 0;         ///< remaining folded edges
+  bool is_repairable = true;     ///< false: more folds than FinishSettings::largest_fold_share
+  std::size_t remade_points = 0; ///< whose triangles were made anew in space
   std::optional<CrossingPairs> crossing; ///< if asked for
   MeshFacing facing;                     ///< which components were flipped, and why
 };

@@ -76,7 +76,7 @@ public:
         progress.next ();
         if (isSpent ())
           return moves;
-        mover_.start ();
+        mesh_.recordChanges ();
         moves += mover_.move (v, limits_.places) < 0.0 ? 1 : 0;
       }
       vertices.swap (mover_.dirty ());
@@ -168,7 +168,7 @@ private:
     const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.kicks);
     for (; times > 0 && kicks_left_ > 0 && next_rank_[v] < places.size (); ++next_rank_[v]) {
       run_.poll ();
-      mover_.start ();
+      mesh_.recordChanges ();
       mover_.dirty ().clear ();
       const double change = mover_.moveTo (v, places[next_rank_[v]]);
       if (noteRing (v)) {
@@ -177,7 +177,7 @@ private:
         if (change + moveAfterKick (change) < -VertexMover::IMPROVES)
           return true;
       }
-      mover_.undo ();
+      mesh_.undo (0);
     }
     if (next_rank_[v] >= places.size ())
       next_rank_[v] = NO_PLACE;
@@ -206,10 +206,8 @@ private:
   // Stores the neighbours of a vertex. Returns false if they are known already.
   bool noteRing (Index v)
   {
-    mesh_.fan (v, fan_);
     std::vector<Index> ring;
-    for (Index t : fan_)
-      ring.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
+    mesh_.fan (v, fan_, ring);
     std::sort (ring.begin (), ring.end ());
     if (std::find (rings_.begin (), rings_.end (), ring) != rings_.end ())
       return false;
@@ -220,10 +218,7 @@ private:
   // After a successful kick: the corners of all changed triangles may be kicked again.
   void allowKicksAround (std::vector<Index>& again)
   {
-    changed_.clear ();
-    mover_.journal ().appendTriangles (changed_);
-    sortUnique (changed_);
-    for (Index t : changed_)
+    for (Index t : mesh_.changedTriangles ())
       for (Index p : mesh_.triangles[t]) {
         next_rank_[p] = 0;
         again.push_back (p);
@@ -241,7 +236,7 @@ private:
   std::size_t kicks_left_ = 0;
   std::size_t most_costs_ = 0;            // limit for kicks
   std::vector<std::vector<Index>> rings_; // neighbours at the triangles tried so far
-  std::vector<Index> fan_, around_, changed_;
+  std::vector<Index> fan_, around_;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -36,7 +37,9 @@ public:
 
   bool fill (const BoundaryLoop& loop)
   {
-    if (isRoundOneTriangle (loop))
+    // Around a component of one triangle, the only filling is that triangle, reversed.
+    constexpr std::array<Index, 3> ALONE{NONE, NONE, NONE};
+    if (mesh_.neighbors[mesh_.triangle_of[loop.points.front ()]] == ALONE)
       return false;
     std::vector<Index> polygon (loop.points.rbegin (), loop.points.rend ());
     const double step = loop.length / static_cast<double> (loop.points.size ());
@@ -66,40 +69,27 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
-  // Whether the loop goes round a component of one triangle: its only filling is the reversed
-  // triangle.
-  bool isRoundOneTriangle (const BoundaryLoop& loop) const
-  {
-    const auto isInLoop = [&loop] (Index p) {
-      return std::find (loop.points.begin (), loop.points.end (), p) != loop.points.end ();
-    };
-    const Triangle& t = mesh_.triangles[mesh_.triangle_of[loop.points.front ()]];
-    return loop.points.size () == 3 && std::all_of (t.begin (), t.end (), isInLoop);
-  }
-
   // Whether a filling turns back onto the triangles beside the loop.
   bool liesOnMesh (const std::vector<Triangle>& filling, const BoundaryLoop& loop) const
   {
+    const auto normal_of = [this] (const Triangle& t) {
+      return Eigen::Vector3d (areaVectorOf (t, positions_).normalized ());
+    };
     std::map<Edge, Eigen::Vector3d> beside; // normals, by the edges of the filling
     std::vector<Index> fan;
     for (std::size_t i = 0, m = loop.points.size (); i < m; ++i) {
       mesh_.fan (loop.points[i], fan);
       beside[{loop.points[i + 1 < m ? i + 1 : 0], loop.points[i]}] =
-          normalOf (mesh_.triangles[fan.front ()]);
+          normal_of (mesh_.triangles[fan.front ()]);
     }
     double turned = 0.0;
     for (const Triangle& t : filling)
       for (std::size_t i = 0; i < 3; ++i) {
         const auto found = beside.find ({t[i], t[(i + 1) % 3]});
-        if (found != beside.end () && found->second.dot (normalOf (t)) < TURNED)
+        if (found != beside.end () && found->second.dot (normal_of (t)) < TURNED)
           turned += (positions_[t[i]] - positions_[t[(i + 1) % 3]]).norm ();
       }
     return turned > limits_.lid_share * loop.length;
-  }
-
-  Eigen::Vector3d normalOf (const Triangle& t) const
-  {
-    return areaVector (positions_[t[0]], positions_[t[1]], positions_[t[2]]).normalized ();
   }
 
   double fillCost (Index p, Index q, Index r) const

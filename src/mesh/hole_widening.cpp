@@ -12,34 +12,19 @@
 
 namespace pcl::floater {
 namespace {
-bool
-staysOpen (const LoopJudgement& judgement)
-{
-  return judgement.log_odds > 0.0 || judgement.is_too_deep;
-}
-
-// Of each point on a loop: the loop.
-std::vector<Index>
-loopsOfPoints (const std::vector<BoundaryLoop>& loops, std::size_t points)
-{
-  std::vector<Index> loop_of (points, NONE);
-  for (Index i = 0; i < loops.size (); ++i)
-    for (const Index p : loops[i].points)
-      loop_of[p] = i;
-  return loop_of;
-}
+// Triangles over holes, each with its loop.
+using TrianglesOverHoles = std::vector<std::pair<Index, Index>>;
 
 // The loops that follow from the removal of triangles, in the places of those that they replace.
 std::vector<BoundaryLoop>
 widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loops,
-              const std::vector<std::pair<Index, Index>>& removed,
+              const TrianglesOverHoles& removed, const std::vector<Index>& loop_of,
               const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
               const RunContext& run)
 {
   std::vector<std::uint8_t> is_widened (loops.size (), 0);
   for (const auto& [triangle, loop] : removed)
     is_widened[loop] = 1;
-  const std::vector<Index> loop_of = loopsOfPoints (loops, positions.size ());
   std::vector<BoundaryLoop> found = loops;
   for (std::vector<Index>& points : boundaryLoops (widened, run)) {
     const auto own = std::find_if (points.begin (), points.end (),
@@ -53,32 +38,31 @@ widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loop
   return found;
 }
 
-std::vector<std::uint8_t>
-flagsOf (const std::vector<std::pair<Index, Index>>& over, const TriangleMesh& mesh)
+void
+removeOver (const TrianglesOverHoles& over, TriangleMesh& mesh, const RunContext& run)
 {
   std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
   for (const auto& [triangle, loop] : over)
     is_removed[triangle] = 1;
-  return is_removed;
+  removeTriangles (mesh, std::move (is_removed), run);
 }
 
 // Triangles at loops that are too large for the sampling around. A triangle is one if it has a
 // boundary edge or a neighbour that is one; its other corner must be inside, so that the mesh
 // without them is a manifold with the same points, components, loops and genus. O(n).
-// \return triangles and their loops, ring by ring
-std::vector<std::pair<Index, Index>>
-trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
-                    const std::vector<LoopEvidence>& evidence,
-                    const std::vector<std::uint8_t>& is_looked,
-                    const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits)
+// \return ring by ring
+TrianglesOverHoles
+findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
+               const std::vector<LoopEvidence>& evidence, const std::vector<Index>& loop_of,
+               const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits)
 {
-  const std::vector<Index> loop_of = loopsOfPoints (loops, positions.size ());
   BoundaryPeel peel (mesh, positions.size ());
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
   for (const MeshEdge e : peel.edges ())
-    if (const Index loop = loop_of[mesh.from (e)]; loop != NONE && is_looked[loop] != 0)
+    if (const Index loop = loop_of[mesh.from (e)];
+        loop != NONE && !loops[loop].judgement.staysOpen ())
       edges.emplace_back (e, loop);
-  std::vector<std::pair<Index, Index>> over;
+  TrianglesOverHoles over;
   for (std::size_t ring = 0; ring < limits.rings && !edges.empty (); ++ring, edges.swap (next)) {
     std::vector<std::tuple<double, MeshEdge, Index>> large;
     for (const auto& [e, loop] : edges) {
@@ -107,7 +91,7 @@ trianglesOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& l
 
 } // namespace
 
-std::vector<LoopJudgement>
+void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
             const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
             const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
@@ -115,36 +99,28 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
             const RunContext& run)
 {
   const std::vector<LoopEvidence> evidence =
-      findEvidence (mesh, loops, positions, neighbors, normals, open_loops.sectors, run);
-  std::vector<LoopJudgement> judgements;
-  std::vector<std::uint8_t> is_looked;
-  for (std::size_t i = 0; i < loops.size (); ++i) {
-    judgements.push_back (judgeLoop (loops[i], evidence[i], open_loops));
-    is_looked.push_back (staysOpen (judgements.back ()) ? 0 : 1);
-  }
-  const auto widen = [&] (std::vector<std::pair<Index, Index>> over) {
-    TriangleMesh widened = mesh;
-    removeTriangles (widened, flagsOf (over, mesh), run);
-    std::vector<BoundaryLoop> wide = widenedLoops (widened, loops, over, positions, spacing, run);
-    const std::vector<LoopJudgement> found =
-        judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
-    over.erase (std::remove_if (
-                    over.begin (), over.end (),
-                    [&] (const auto& one) { return found[one.second].log_odds < limits.log_odds; }),
-                over.end ());
-    removeTriangles (mesh, flagsOf (over, mesh), run);
-    for (const auto& [triangle, loop] : over) {
-      judgements[loop] = found[loop];
-      if (is_looked[loop] != 0)
-        loops[loop] = std::move (wide[loop]);
-      is_looked[loop] = 0;
-    }
-  };
-  std::vector<std::pair<Index, Index>> over =
-      trianglesOverHoles (mesh, loops, evidence, is_looked, positions, limits);
-  if (!over.empty ())
-    widen (std::move (over));
-  return judgements;
+      judgeLoops (mesh, loops, positions, neighbors, normals, open_loops, run);
+  std::vector<Index> loop_of (positions.size (), NONE); // of each point on one
+  for (Index i = 0; i < loops.size (); ++i)
+    for (const Index p : loops[i].points)
+      loop_of[p] = i;
+  TrianglesOverHoles over = findOverHoles (mesh, loops, evidence, loop_of, positions, limits);
+  if (over.empty ())
+    return;
+  TriangleMesh widened = mesh;
+  removeOver (over, widened, run);
+  std::vector<BoundaryLoop> wide =
+      widenedLoops (widened, loops, over, loop_of, positions, spacing, run);
+  judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
+  over.erase (std::remove_if (over.begin (), over.end (),
+                              [&] (const auto& one) {
+                                return wide[one.second].judgement.log_odds < limits.log_odds;
+                              }),
+              over.end ());
+  removeOver (over, mesh, run);
+  for (const auto& [triangle, loop] : over)
+    if (!wide[loop].points.empty ()) // not yet moved
+      loops[loop] = std::move (wide[loop]);
 }
 
 } // namespace pcl::floater

@@ -31,8 +31,7 @@ struct HoleWideningLimits
 /// a gap becomes a likely boundary without them. O(n) plus twice judgeLoops ().
 /// \param loops   of the mesh, ascending by their smallest points before
 /// \param spacing local spacing of each point
-/// \return judgement of each loop
-std::vector<LoopJudgement>
+void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
             const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
             const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,

@@ -4,11 +4,9 @@
 
 #include "core/run_context.h"
 
-#include <algorithm>
 #include <limits>
 #include <queue>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -37,7 +35,12 @@ public:
     seen_.assign (mesh_.triangles.size () + 2 * missing.size (), 0); // each adds two triangles
     std::size_t inserted = 0;
     ProgressLoop progress (run_, missing.size ());
-    findAwaiting (missing);
+    awaiting_ = makeCsrLists (mesh_.triangle_of.size (), [&] (const auto& emit) {
+      for (const Index p : missing)
+        for (const Index q : neighbors_.row (p))
+          if (mesh_.triangle_of[q] == NONE)
+            emit (q, p);
+    });
     ProgressLoop offers (run_);
     for (Index p : missing) {
       offers.next ();
@@ -69,20 +72,6 @@ private:
       return std::tie (other.added, other.point) < std::tie (added, point);
     }
   };
-
-  // Pairs of missing points, the first among the neighbours of the second: the second can be
-  // inserted after the first.
-  void findAwaiting (const std::vector<Index>& missing)
-  {
-    ProgressLoop progress (run_);
-    for (Index p : missing) {
-      progress.next ();
-      for (Index q : neighbors_.row (p))
-        if (mesh_.triangle_of[q] == NONE)
-          awaiting_.emplace_back (q, p);
-    }
-    std::sort (awaiting_.begin (), awaiting_.end ());
-  }
 
   // Queues a point if it can be inserted. Its cheapest triangle is searched again later.
   void offer (Index p)
@@ -148,11 +137,9 @@ private:
           flipper_.push ({t, side});
       flipper_.run ();
     }
-    for (auto at = std::lower_bound (awaiting_.begin (), awaiting_.end (),
-                                     std::make_pair (place.point, Index{0}));
-         at != awaiting_.end () && at->first == place.point; ++at)
-      if (mesh_.triangle_of[at->second] == NONE)
-        offer (at->second);
+    for (const Index p : awaiting_.row (place.point))
+      if (mesh_.triangle_of[p] == NONE)
+        offer (p);
   }
 
   TriangleMesh& mesh_;
@@ -161,7 +148,7 @@ private:
   RunContext run_;
   EdgeFlipper flipper_;
   bool flip_;
-  std::vector<std::pair<Index, Index>> awaiting_; // see findAwaiting; sorted
+  CsrLists awaiting_; // of each missing point: those that can be inserted after it
   std::priority_queue<Place> queue_;
   std::vector<std::uint8_t> queued_; // per point
   std::vector<Index> seen_;          // per triangle: the last search that visited it
@@ -176,24 +163,6 @@ insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const Triang
                      bool flip, const RunContext& run)
 {
   return PointInserter (mesh, neighbors, cost, flip, run).run ();
-}
-
-void
-orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
-                      std::vector<Eigen::Vector3f>& normals, const RunContext& run)
-{
-  ProgressLoop progress (run);
-  for (Index p = 0; p < normals.size (); ++p) {
-    progress.next ();
-    if (mesh.triangle_of[p] != NONE)
-      continue;
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
-    for (const Index q : neighbors.row (p))
-      if (mesh.triangle_of[q] != NONE)
-        sum += normals[q];
-    if (normals[p].dot (sum) < 0.0F)
-      normals[p] = -normals[p];
-  }
 }
 
 } // namespace pcl::floater

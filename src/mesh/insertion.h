@@ -18,10 +18,4 @@ std::size_t
 insertMissingPoints (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
                      bool flip, const RunContext& run);
 
-/// Orients the normals of points without triangle like the mean normal of the vertices among their
-/// neighbours. O(n).
-void
-orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
-                      std::vector<Eigen::Vector3f>& normals, const RunContext& run);
-
 } // namespace pcl::floater

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace pcl::floater {
@@ -74,40 +73,6 @@ constexpr std::size_t MOST_CORNERS = 64;
 // area, as in a flat loop, prefers short edges.
 constexpr double EDGE_WEIGHT = 0.05;
 
-// Tests whether a point has a large sector without neighbours, on its own sheet or on any.
-class SectorTest
-{
-public:
-  SectorTest (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits)
-      : positions_ (positions), neighbors_ (neighbors), normals_ (normals), limits_ (limits)
-  {
-  }
-
-  bool hasEmptySector (Index p, bool same_sheet)
-  {
-    const Eigen::Vector3d normal = normals_[p].cast<double> ();
-    const TangentFrame frame (normal);
-    planar_.clear ();
-    for (Index q : neighbors_.row (p)) {
-      const Eigen::Vector3d offset = positions_[q] - positions_[p];
-      const Eigen::Vector3d other = normals_[q].cast<double> ();
-      if (!same_sheet || onSameSheet (normal, other, offset, limits_.sheet))
-        planar_.push_back ({frame.project (offset), q});
-    }
-    star_.order (planar_);
-    return star_.openingAngle () > limits_.angle * DEGREE;
-  }
-
-private:
-  const std::vector<Eigen::Vector3d>& positions_;
-  const CsrLists& neighbors_;
-  const std::vector<Eigen::Vector3f>& normals_;
-  const EmptySectorLimits& limits_;
-  PlanarStar star_;
-  std::vector<PlanarNeighbor> planar_;
-};
-
 // Mean and standard deviation of logarithms of lengths.
 class LogLengths
 {
@@ -134,10 +99,10 @@ private:
 class RingWalk
 {
 public:
-  static constexpr std::size_t RINGS = 4;
+  static constexpr Index RINGS = 4;
 
   RingWalk (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions)
-      : mesh_ (mesh), positions_ (positions), ring_ (positions.size (), 0)
+      : mesh_ (mesh), positions_ (positions), ring_of_ (positions.size (), NONE)
   {
   }
 
@@ -145,32 +110,27 @@ public:
   std::array<LogLengths, RINGS> walk (const std::vector<Index>& loop)
   {
     std::array<LogLengths, RINGS> edges;
-    // A point of ring k has the number base_ + k + 1; lower numbers belong to earlier walks.
-    if (base_ > LARGEST_BASE) {
-      std::fill (ring_.begin (), ring_.end (), 0U);
-      base_ = 0;
-    }
-    current_ = loop;
-    for (const Index p : current_)
-      ring_[p] = base_ + 1;
-    for (std::uint32_t k = 0; k < RINGS; ++k) {
-      const std::uint32_t own = base_ + k + 1;
-      next_.clear ();
-      for (const Index p : current_)
-        forEachNeighbor (p, [&] (Index q) {
-          if (ring_[q] <= base_) {
-            ring_[q] = own + 1;
-            next_.push_back (q);
+    std::vector<Index> points = loop; // ring by ring
+    for (const Index p : points)
+      ring_of_[p] = 0;
+    std::size_t first = 0;
+    for (Index ring = 0; ring < RINGS; ++ring) {
+      const std::size_t last = points.size ();
+      for (std::size_t i = first; i < last; ++i)
+        for (const Index q : around (points[i]))
+          if (ring_of_[q] == NONE) {
+            ring_of_[q] = ring + 1;
+            points.push_back (q);
           }
-        });
-      for (const Index p : current_)
-        forEachNeighbor (p, [&] (Index q) {
-          if (ring_[q] > own || (ring_[q] == own && p < q))
-            edges[k].add ((positions_[q] - positions_[p]).norm ());
-        });
-      current_.swap (next_);
+      for (; first < last; ++first) {
+        const Index p = points[first];
+        for (const Index q : around (p))
+          if (ring_of_[q] > ring || (ring_of_[q] == ring && p < q))
+            edges[ring].add ((positions_[q] - positions_[p]).norm ());
+      }
     }
-    base_ += RINGS + 1;
+    for (const Index p : points)
+      ring_of_[p] = NONE;
     return edges;
   }
 
@@ -178,43 +138,26 @@ public:
   double curvature (Index p)
   {
     double angle = PI;
-    mesh_.fan (p, fan_);
-    for (const Index t : fan_) {
-      const std::uint8_t side = mesh_.sideOf (t, p);
-      const Eigen::Vector3d a =
-          positions_[mesh_.triangles[t][TriangleMesh::next (side)]] - positions_[p];
-      const Eigen::Vector3d b =
-          positions_[mesh_.triangles[t][TriangleMesh::previous (side)]] - positions_[p];
+    around (p);
+    for (std::size_t i = 1; i < around_.size (); ++i) {
+      const Eigen::Vector3d a = positions_[around_[i - 1]] - positions_[p];
+      const Eigen::Vector3d b = positions_[around_[i]] - positions_[p];
       angle -= std::atan2 (a.cross (b).norm (), a.dot (b));
     }
     return angle;
   }
 
 private:
-  static constexpr std::uint32_t LARGEST_BASE = 0xffff0000U;
-
-  // All points that share an edge with p.
-  template <typename Visit>
-  void forEachNeighbor (Index p, Visit&& visit)
+  const std::vector<Index>& around (Index p)
   {
-    const auto first = [&] (Index t) {
-      return mesh_.triangles[t][TriangleMesh::next (mesh_.sideOf (t, p))];
-    };
-    const auto last = [&] (Index t) {
-      return mesh_.triangles[t][TriangleMesh::previous (mesh_.sideOf (t, p))];
-    };
-    mesh_.fan (p, fan_);
-    for (const Index t : fan_)
-      visit (first (t));
-    if (last (fan_.back ()) != first (fan_.front ())) // the fan ends at a boundary
-      visit (last (fan_.back ()));
+    mesh_.fan (p, fan_, around_);
+    return around_;
   }
 
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;
-  std::vector<std::uint32_t> ring_;
-  std::uint32_t base_ = 0;
-  std::vector<Index> current_, next_, fan_;
+  std::vector<Index> ring_of_; // of each point, NONE outside of a walk
+  std::vector<Index> fan_, around_;
 };
 
 // The largest height of a triangle in a filling of least area.
@@ -277,82 +220,8 @@ lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
   return evidence;
 }
 
-} // namespace
-
-std::vector<LoopEvidence>
-findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
-              const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits,
-              const RunContext& run)
-{
-  std::vector<LoopEvidence> evidence;
-  evidence.reserve (loops.size ());
-  SectorTest test (positions, neighbors, normals, limits);
-  RingWalk rings (mesh, positions);
-  PolygonFilling filling (run);
-  ProgressLoop progress (run);
-  for (const BoundaryLoop& loop : loops) {
-    std::size_t open = 0, empty = 0;
-    for (const Index p : loop.points) {
-      progress.next ();
-      open += test.hasEmptySector (p, true) ? 1 : 0;
-      empty += test.hasEmptySector (p, false) ? 1 : 0;
-    }
-    const auto count = static_cast<double> (loop.points.size ());
-    evidence.push_back (lookAt (loop, positions, rings, filling));
-    evidence.back ().open_share = static_cast<double> (open) / count;
-    evidence.back ().empty_share = static_cast<double> (empty) / count;
-  }
-  return evidence;
-}
-
-namespace {
-// Indices by descending key; stable.
-template <typename Key>
-std::vector<std::size_t>
-fromLargest (std::size_t count, Key&& key)
-{
-  std::vector<std::size_t> order (count);
-  std::iota (order.begin (), order.end (), std::size_t{0});
-  std::stable_sort (order.begin (), order.end (),
-                    [&key] (std::size_t a, std::size_t b) { return key (b) < key (a); });
-  return order;
-}
-
-// Likely boundaries first, by value; then the others by their empty length.
-std::pair<bool, double>
-rank (const LoopJudgement& judgement, double value)
-{
-  return judgement.log_odds > 0.0 ? std::make_pair (true, value)
-                                  : std::make_pair (false, judgement.empty_length);
-}
-
-void
-keepLargest (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgement>& judgements,
-             std::size_t components)
-{
-  const auto key = [&] (std::size_t i) { return rank (judgements[i], loops[i].length); };
-  std::vector<std::uint8_t> has_one (components, 0);
-  for (const std::size_t i : fromLargest (loops.size (), key)) {
-    loops[i].keep_open = has_one[loops[i].component] == 0;
-    has_one[loops[i].component] = 1;
-  }
-}
-
-void
-keepCount (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgement>& judgements,
-           std::size_t count)
-{
-  const auto key = [&] (std::size_t i) { return rank (judgements[i], judgements[i].log_odds); };
-  const std::vector<std::size_t> order = fromLargest (loops.size (), key);
-  for (std::size_t i = 0; i < order.size (); ++i)
-    loops[order[i]].keep_open = i < count;
-}
-
-} // namespace
-
 LoopJudgement
-judgeLoop (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoopLimits& limits)
+judge (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoopLimits& limits)
 {
   const auto points = static_cast<double> (loop.points.size ());
   LoopJudgement judgement;
@@ -366,6 +235,74 @@ judgeLoop (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoo
   return judgement;
 }
 
+} // namespace
+
+std::vector<LoopEvidence>
+judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
+            const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+            const std::vector<Eigen::Vector3f>& normals, const OpenLoopLimits& limits,
+            const RunContext& run)
+{
+  PlanarStar star;
+  std::vector<PlanarNeighbor> planar;
+  // Whether a point has a large sector without neighbours, on its own sheet or on any.
+  const auto hasEmptySector = [&] (Index p, bool same_sheet) {
+    const TangentFrame frame (normals[p].cast<double> ());
+    planar.clear ();
+    for (const Index q : neighbors.row (p)) {
+      const Eigen::Vector3d offset = positions[q] - positions[p];
+      if (!same_sheet ||
+          onSameSheet (frame.normal, normals[q].cast<double> (), offset, limits.sectors.sheet))
+        planar.push_back ({frame.project (offset), q});
+    }
+    star.order (planar);
+    return star.openingAngle () > limits.sectors.angle * DEGREE;
+  };
+  std::vector<LoopEvidence> evidence;
+  RingWalk rings (mesh, positions);
+  PolygonFilling filling (run);
+  ProgressLoop progress (run);
+  for (BoundaryLoop& loop : loops) {
+    std::size_t open = 0, empty = 0;
+    for (const Index p : loop.points) {
+      progress.next ();
+      open += hasEmptySector (p, true) ? 1 : 0;
+      empty += hasEmptySector (p, false) ? 1 : 0;
+    }
+    const auto count = static_cast<double> (loop.points.size ());
+    evidence.push_back (lookAt (loop, positions, rings, filling));
+    evidence.back ().open_share = static_cast<double> (open) / count;
+    evidence.back ().empty_share = static_cast<double> (empty) / count;
+    loop.judgement = judge (loop, evidence.back (), limits);
+  }
+  return evidence;
+}
+
+namespace {
+// The loops by descending key; stable.
+template <typename Key>
+std::vector<BoundaryLoop*>
+fromLargest (std::vector<BoundaryLoop>& loops, Key&& key)
+{
+  std::vector<BoundaryLoop*> order;
+  for (BoundaryLoop& loop : loops)
+    order.push_back (&loop);
+  std::stable_sort (
+      order.begin (), order.end (),
+      [&key] (const BoundaryLoop* a, const BoundaryLoop* b) { return key (*b) < key (*a); });
+  return order;
+}
+
+// Likely boundaries first, by value; then the others by their empty length.
+std::pair<bool, double>
+rank (const LoopJudgement& judgement, double value)
+{
+  return judgement.log_odds > 0.0 ? std::make_pair (true, value)
+                                  : std::make_pair (false, judgement.empty_length);
+}
+
+} // namespace
+
 bool
 isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits)
 {
@@ -374,33 +311,25 @@ isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits)
          (judgement.is_too_deep && probability <= 0.5);
 }
 
-std::vector<LoopJudgement>
-judgeLoops (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
-            const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, const OpenLoopLimits& limits,
-            const RunContext& run)
-{
-  const std::vector<LoopEvidence> evidence =
-      findEvidence (mesh, loops, positions, neighbors, normals, limits.sectors, run);
-  std::vector<LoopJudgement> judgements;
-  judgements.reserve (loops.size ());
-  for (std::size_t i = 0; i < loops.size (); ++i)
-    judgements.push_back (judgeLoop (loops[i], evidence[i], limits));
-  return judgements;
-}
-
 void
-chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgement>& judgements,
-                 std::size_t components, const HoleOptions& holes, double unit)
+chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
+                 double unit)
 {
+  std::vector<std::uint8_t> has_one (components, 0);
+  int kept = 0;
   switch (holes.policy) {
   case HolePolicy::CLOSE_ALL:
     return;
   case HolePolicy::KEEP_LARGEST:
-    keepLargest (loops, judgements, components);
+    for (BoundaryLoop* loop :
+         fromLargest (loops, [] (const BoundaryLoop& l) { return rank (l.judgement, l.length); }))
+      loop->keep_open = std::exchange (has_one[loop->component], std::uint8_t{1}) == 0;
     return;
   case HolePolicy::KEEP_COUNT:
-    keepCount (loops, judgements, static_cast<std::size_t> (holes.kept_loops));
+    for (BoundaryLoop* loop : fromLargest (loops, [] (const BoundaryLoop& l) {
+           return rank (l.judgement, l.judgement.log_odds);
+         }))
+      loop->keep_open = kept++ < holes.kept_loops;
     return;
   case HolePolicy::BY_SIZE:
     for (BoundaryLoop& loop : loops)
@@ -408,8 +337,8 @@ chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgeme
           loop.width > holes.largest_hole * (holes.unit == LengthUnit::CLOUD ? unit : loop.spacing);
     return;
   case HolePolicy::AUTO:
-    for (std::size_t i = 0; i < loops.size (); ++i)
-      loops[i].keep_open = judgements[i].log_odds > 0.0 || judgements[i].is_too_deep;
+    for (BoundaryLoop& loop : loops)
+      loop.keep_open = loop.judgement.staysOpen ();
     return;
   }
 }

@@ -13,6 +13,19 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Judgement of a boundary loop.
+struct LoopJudgement
+{
+  double log_odds = 0.0; ///< logarithm of the odds that it is a boundary of the surface; above 0 it
+                         ///< is more likely a boundary than a gap
+  double empty_length = 0.0; ///< length of the loop whose points have no neighbour at all beyond
+                             ///< it, in the unit of the positions
+  bool is_too_deep = false;  ///< to be filled by triangles with support from the sampling
+
+  double probability () const { return 1.0 / (1.0 + std::exp (-log_odds)); }
+  bool staysOpen () const { return log_odds > 0.0 || is_too_deep; }
+};
+
 /// A closed walk along boundary edges.
 struct BoundaryLoop
 {
@@ -21,6 +34,7 @@ struct BoundaryLoop
   double length = 0.0;       ///< sum of its edges, in the unit of the positions
   double width = 0.0;        ///< largest distance between two of its points, same unit
   double spacing = 0.0;      ///< mean local spacing of its points, same unit
+  LoopJudgement judgement;   ///< see judgeLoops
   bool keep_open = false;    ///< it is a boundary of the surface
 };
 
@@ -71,20 +85,6 @@ struct LoopEvidence
                       ///< coarse one
 };
 
-/// Uses the mesh three rings into the surface, and the neighbours of the points of each loop. O(n +
-/// k log k) for a point of k neighbours, with n for the points of all rings, and O(m^3) for a loop
-/// of m points, up to 64.
-/// \param mesh      with its loops open
-/// \param loops     of the mesh
-/// \param neighbors of each point of the mesh
-/// \param normals   of each point of the mesh, unit length, any sign
-/// \return evidence of each loop, in the order of the loops
-std::vector<LoopEvidence>
-findEvidence (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
-              const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const std::vector<Eigen::Vector3f>& normals, const EmptySectorLimits& limits,
-              const RunContext& run);
-
 /// Thresholds and coefficients that separate boundaries from gaps.
 ///
 /// The coefficients belong to a logistic regression: the sum of evidence times coefficient is the
@@ -110,44 +110,34 @@ struct OpenLoopLimits
                               ///< about one in ten of those is wrong. Chosen by hand
 };
 
-/// Judgement of a boundary loop.
-struct LoopJudgement
-{
-  double log_odds = 0.0; ///< logarithm of the odds that it is a boundary of the surface; above 0 it
-                         ///< is more likely a boundary than a gap
-  double empty_length = 0.0; ///< length of the loop whose points have no neighbour at all beyond
-                             ///< it, in the unit of the positions
-  bool is_too_deep = false;  ///< to be filled by triangles with support from the sampling
-
-  double probability () const { return 1.0 / (1.0 + std::exp (-log_odds)); }
-};
-
-LoopJudgement
-judgeLoop (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoopLimits& limits);
-
 /// Whether a decision is reported: it is less certain than OpenLoopLimits::doubtful, or the loop
 /// stays open only because it is too deep.
 bool
 isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
 
-/// Judges all loops by the evidence of each (see findEvidence).
-std::vector<LoopJudgement>
-judgeLoops (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
+/// Judges all loops. Uses the mesh three rings into the surface, and the neighbours of the points of
+/// each loop. O(n + k log k) for a point of k neighbours, with n for the points of all rings, and
+/// O(m^3) for a loop of m points, up to 64.
+/// \param mesh      with its loops open
+/// \param neighbors of each point of the mesh
+/// \param normals   of each point of the mesh, unit length, any sign
+/// \return evidence of each loop, in the order of the loops
+std::vector<LoopEvidence>
+judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
             const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Eigen::Vector3f>& normals, const OpenLoopLimits& limits,
             const RunContext& run);
 
-/// Decides which loops are kept open: sets BoundaryLoop::keep_open.
+/// Decides by the judgements which loops are kept open: sets BoundaryLoop::keep_open.
 ///
 /// The automatic policy keeps likely boundaries, and loops that are too deep to be filled. A
 /// requested number of loops is taken from the most likely boundaries on; the largest loop of each
 /// component is the longest of its likely boundaries. If likely boundaries run out, both use the
 /// length of the loop with no point beyond. O(m log m) for m loops.
-/// \param judgements of each loop
 /// \param components number of components of the mesh
 /// \param unit       length of one unit of the cloud in the unit of the positions
 void
-chooseOpenLoops (std::vector<BoundaryLoop>& loops, const std::vector<LoopJudgement>& judgements,
-                 std::size_t components, const HoleOptions& holes, double unit);
+chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
+                 double unit);
 
 } // namespace pcl::floater

@@ -3,11 +3,11 @@
 #include "mesh/open_boundary.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "mesh/fold_repair.h"
 #include "mesh/trimming.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <queue>
 #include <tuple>
@@ -15,80 +15,39 @@
 
 namespace pcl::floater {
 namespace {
-class FoldOpener
+std::array<std::uint8_t, 2>
+otherSides (MeshEdge e)
 {
-public:
-  FoldOpener (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions)
-      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size ())
-  {
-  }
+  return {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)};
+}
 
-  // Removes the triangles that end a fold, if there are any. Returns their number.
-  std::size_t open (MeshEdge fold)
-  {
-    const MeshEdge other = mesh_.mate (fold);
-    if (peel_.isBoundary (fold) || peel_.isBoundary (other))
-      return 0;
-    best_.clear ();
-    least_area_ = std::numeric_limits<double>::infinity ();
-    offerAround (fold);
-    offerAround (other);
-    for (const MeshEdge e : best_)
-      peel_.take (e);
-    return best_.size ();
-  }
-
-  std::vector<std::uint8_t> takenTriangles () && { return std::move (peel_).takenTriangles (); }
-
-private:
-  // Offers the triangle of a folded edge, or, if it is not at the boundary, a triangle beside it
-  // first.
-  void offerAround (MeshEdge fold)
-  {
-    for (const std::uint8_t side : otherSides (fold)) {
-      const MeshEdge e{fold.triangle, side};
-      if (peel_.isBoundary (e)) {
-        if (peel_.mayTake (e))
-          offer ({e});
+// Calls offer (edges) for the triangle of a folded edge, or, if it is not at the boundary, for a
+// triangle beside it and this one, by boundary edges in the order of removal.
+template <typename Offer>
+void
+offerAround (MeshEdge fold, const TriangleMesh& mesh, BoundaryPeel& peel, Offer&& offer)
+{
+  for (const std::uint8_t side : otherSides (fold)) {
+    const MeshEdge e{fold.triangle, side};
+    if (peel.isBoundary (e)) {
+      if (peel.mayTake (e))
+        offer ({e});
+      continue;
+    }
+    const MeshEdge beside = mesh.mate (e);
+    if (beside.triangle == NONE) // border of a submesh
+      continue;
+    for (const std::uint8_t outer : otherSides (beside)) {
+      const MeshEdge first{beside.triangle, outer};
+      if (!peel.isBoundary (first) || !peel.mayTake (first))
         continue;
-      }
-      const MeshEdge beside = mesh_.mate (e);
-      if (beside.triangle == NONE) // border of a submesh
-        continue;
-      for (const std::uint8_t outer : otherSides (beside)) {
-        const MeshEdge first{beside.triangle, outer};
-        if (!peel_.isBoundary (first) || !peel_.mayTake (first))
-          continue;
-        peel_.take (first);
-        if (peel_.mayTake (e))
-          offer ({first, e});
-        peel_.putBack (first);
-      }
+      peel.take (first);
+      if (peel.mayTake (e))
+        offer ({first, e});
+      peel.putBack (first);
     }
   }
-
-  void offer (const std::vector<MeshEdge>& triangles)
-  {
-    double area = 0.0;
-    for (const MeshEdge e : triangles)
-      area += areaVectorOf (mesh_.triangles[e.triangle], positions_).norm ();
-    if (area < least_area_) {
-      least_area_ = area;
-      best_ = triangles;
-    }
-  }
-
-  static std::array<std::uint8_t, 2> otherSides (MeshEdge e)
-  {
-    return {TriangleMesh::next (e.side), TriangleMesh::previous (e.side)};
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  BoundaryPeel peel_;
-  std::vector<MeshEdge> best_; // boundary edges of triangles, in the order of removal
-  double least_area_ = 0.0;
-};
+}
 
 } // namespace
 
@@ -99,12 +58,31 @@ openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
   const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
   if (folds.empty ())
     return 0;
-  FoldOpener opener (mesh, positions);
+  BoundaryPeel peel (mesh, positions.size ());
   std::size_t count = 0;
-  for (const MeshEdge fold : folds)
-    count += opener.open (fold);
+  for (const MeshEdge fold : folds) {
+    const MeshEdge other = mesh.mate (fold);
+    if (peel.isBoundary (fold) || peel.isBoundary (other))
+      continue;
+    std::vector<MeshEdge> best;
+    double least_area = std::numeric_limits<double>::infinity ();
+    const auto offer = [&] (const std::vector<MeshEdge>& triangles) {
+      double area = 0.0;
+      for (const MeshEdge e : triangles)
+        area += areaVectorOf (mesh.triangles[e.triangle], positions).norm ();
+      if (area < least_area) {
+        least_area = area;
+        best = triangles;
+      }
+    };
+    offerAround (fold, mesh, peel, offer);
+    offerAround (other, mesh, peel, offer);
+    for (const MeshEdge e : best)
+      peel.take (e);
+    count += best.size ();
+  }
   if (count > 0)
-    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
+    removeTriangles (mesh, std::move (peel).takenTriangles (), run);
   return count;
 }
 
@@ -121,67 +99,6 @@ cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
   const double product = a.norm () * b.norm ();
   return product > 0.0 ? a.dot (b) / product : 1.0;
 }
-
-// Cosine that a share of all corners does not exceed.
-double
-usualCosine (std::vector<double> corners, double share)
-{
-  const auto at = corners.begin () +
-                  static_cast<std::ptrdiff_t> (share * static_cast<double> (corners.size ()));
-  std::nth_element (corners.begin (), at, corners.end ());
-  return *at;
-}
-
-class NotchOpener
-{
-public:
-  NotchOpener (const TriangleMesh& mesh, const Positions& positions)
-      : mesh_ (mesh), positions_ (positions), peel_ (mesh, positions.size ())
-  {
-  }
-
-  /// Removes notches with cosines below the limit. Returns the number of triangles.
-  std::size_t run (std::vector<double> corners, const NotchLimits& limits)
-  {
-    if (peel_.edges ().empty ())
-      return 0;
-    limit_ =
-        std::min (limits.largest_cosine, usualCosine (std::move (corners), limits.usual_share));
-    for (const MeshEdge e : peel_.edges ())
-      offer (e);
-    std::size_t count = 0;
-    while (!notches_.empty ()) {
-      const auto [cosine, triangle, side] = notches_.top ();
-      notches_.pop ();
-      const MeshEdge e{triangle, side};
-      if (!peel_.mayTake (e))
-        continue;
-      peel_.take (e);
-      ++count;
-      offer (mesh_.mate ({triangle, TriangleMesh::next (side)}));
-      offer (mesh_.mate ({triangle, TriangleMesh::previous (side)}));
-    }
-    return count;
-  }
-
-  std::vector<std::uint8_t> takenTriangles () && { return std::move (peel_).takenTriangles (); }
-
-private:
-  using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
-
-  void offer (MeshEdge e)
-  {
-    const double cosine = cosineAt (e, mesh_, positions_);
-    if (cosine < limit_)
-      notches_.emplace (cosine, e.triangle, e.side);
-  }
-
-  const TriangleMesh& mesh_;
-  const Positions& positions_;
-  double limit_ = 0.0;
-  BoundaryPeel peel_;
-  std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches_;
-};
 
 // Cosines of the corners of some triangles, spread evenly over the mesh.
 std::vector<double>
@@ -205,10 +122,34 @@ std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
              const RunContext& run)
 {
-  NotchOpener opener (mesh, positions);
-  const std::size_t count = opener.run (sampleCorners (mesh, positions, run), limits);
+  using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
+  BoundaryPeel peel (mesh, positions.size ());
+  if (peel.edges ().empty ())
+    return 0;
+  std::vector<double> corners = sampleCorners (mesh, positions, run);
+  const double limit = std::min (limits.largest_cosine, quantile (corners, limits.usual_share));
+  std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches;
+  const auto offer = [&] (MeshEdge e) {
+    const double cosine = cosineAt (e, mesh, positions);
+    if (cosine < limit)
+      notches.emplace (cosine, e.triangle, e.side);
+  };
+  for (const MeshEdge e : peel.edges ())
+    offer (e);
+  std::size_t count = 0;
+  while (!notches.empty ()) {
+    const auto [cosine, triangle, side] = notches.top ();
+    notches.pop ();
+    const MeshEdge e{triangle, side};
+    if (!peel.mayTake (e))
+      continue;
+    peel.take (e);
+    ++count;
+    for (const std::uint8_t beside : otherSides (e))
+      offer (mesh.mate ({triangle, beside}));
+  }
   if (count > 0)
-    removeTriangles (mesh, std::move (opener).takenTriangles (), run);
+    removeTriangles (mesh, std::move (peel).takenTriangles (), run);
   return count;
 }
 

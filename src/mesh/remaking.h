@@ -16,24 +16,17 @@ struct RemakingLimits
                             ///< fold has two open edges for each folded one that closes it
 };
 
-/// What remakeZones () did.
-struct Remaking
-{
-  std::size_t zones = 0;  ///< made anew
-  std::size_t points = 0; ///< free points of these zones
-  std::size_t failed = 0; ///< left as they were
-};
-
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that came
 /// out wrong once more, narrower each time, but wider where the new triangles did not fit to those
 /// around. A zone stays as it was if its new triangles are no manifold with those around, have a
-/// handle more, a lid on an opening, or not clearly fewer faults (PieceInPlace::faults); if the
+/// handle more, a lid on an opening, or not clearly fewer faults (see PieceInPlace); if the
 /// sides of pieces of the mesh contradict each other. Components may come out with either side as the front. O(n), plus some 60
 /// microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
-Remaking
+/// \return number of points whose triangles were made anew
+std::size_t
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
              const RemakingLimits& limits, const RunContext& run);

@@ -15,23 +15,6 @@
 
 namespace pcl::floater {
 namespace {
-// Calls attempt (patch) for some orders of a patch, until it returns true. The orders are
-// deterministic.
-// \return whether an attempt returned true
-template <typename Attempt>
-bool
-tryOrders (std::vector<Index> patch, std::size_t orders, Attempt&& attempt)
-{
-  std::mt19937 random (1);
-  for (std::size_t order = 0; order < orders; ++order) {
-    if (attempt (patch))
-      return true;
-    for (std::size_t i = patch.size (); i > 1; --i)
-      std::swap (patch[i - 1], patch[random () % i]);
-  }
-  return false;
-}
-
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
 constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // equivalent in time: an estimate
 
@@ -89,7 +72,7 @@ private:
           continue;
         flips_tried_in_[t] = step_;
         for (std::uint8_t side = 0; side < 3; ++side) {
-          mover_.start ();
+          mesh_.recordChanges ();
           if (flip ({t, side})) {
             ++done_.flips;
             has_changed = true;
@@ -175,24 +158,29 @@ private:
     return false;
   }
 
-  // Removes the vertices of a patch and reinserts them, in an order that helps, if there is one.
-  bool rebuild (const std::vector<Index>& patch)
+  // Removes the vertices of a patch and reinserts them, in an order that helps, if there is one. The
+  // orders are deterministic.
+  bool rebuild (std::vector<Index> vertices)
   {
-    return tryOrders (patch, limits_.rebuilt_orders, [&] (const std::vector<Index>& vertices) {
+    std::mt19937 random (1);
+    for (std::size_t order = 0; order < limits_.rebuilt_orders; ++order) {
       run_.poll ();
       bool is_possible = true;
       double change_of_cost = 0.0; // not used: gainOf () measures the change itself
       const auto change = [&] {
         is_possible = mover_.rebuild (vertices, change_of_cost) && is_possible;
       };
-      mover_.start ();
+      mesh_.recordChanges ();
       rebuilt_vertices_ += 2 * vertices.size ();
-      if (!(gainOf (change) > 0.0) || !is_possible)
-        return false;
-      keep (change);
-      ++done_.rebuilds;
-      return true;
-    });
+      if (gainOf (change) > 0.0 && is_possible) {
+        keep (change);
+        ++done_.rebuilds;
+        return true;
+      }
+      for (std::size_t i = vertices.size (); i > 1; --i)
+        std::swap (vertices[i - 1], vertices[random () % i]);
+    }
+    return false;
   }
 
   // Whether a triangle of a vertex crosses another one, and something there changed since its last
@@ -222,7 +210,7 @@ private:
   // Tries all triangles for a vertex, and keeps the best one if it helps.
   bool move (Index v)
   {
-    mover_.start ();
+    mesh_.recordChanges ();
     double best = 0.0;
     const VertexMover::Place* best_place = nullptr;
     const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.places);
@@ -247,7 +235,7 @@ private:
   {
     const std::size_t mark = mesh_.mark ();
     change ();
-    noteChanged ();
+    changed_ = mesh_.changedTriangles ();
     const Flaws after = flaws ();
     mesh_.undo (mark);
     const Flaws before = flaws ();
@@ -267,20 +255,12 @@ private:
   void keep (Change&& change)
   {
     change ();
-    noteChanged ();
+    changed_ = mesh_.changedTriangles ();
     table_.tryChange (changed_, EVERY_PAIR);
     table_.accept (changed_);
     ++step_;
     for (const Index t : changed_)
       changed_in_[t] = step_;
-  }
-
-  // Marks all triangles in the journal.
-  void noteChanged ()
-  {
-    changed_.clear ();
-    mover_.journal ().appendTriangles (changed_);
-    sortUnique (changed_);
   }
 
   struct Flaws

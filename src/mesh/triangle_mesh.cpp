@@ -4,6 +4,7 @@
 
 #include "core/csr_lists.h"
 #include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
@@ -48,6 +49,22 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
   std::rotate (fan_triangles.begin (), middle, fan_triangles.end ());
 }
 
+bool
+TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles, std::vector<Index>& ring) const
+{
+  fan (p, fan_triangles);
+  ring.clear ();
+  for (const Index t : fan_triangles)
+    ring.push_back (from ({t, sideOf (t, p)}));
+  if (ring.empty ())
+    return false;
+  const Index end = to ({fan_triangles.back (), sideOf (fan_triangles.back (), p)});
+  const bool is_closed = end == ring.front ();
+  if (!is_closed)
+    ring.push_back (end);
+  return is_closed;
+}
+
 // Walks both fans in step, so the smaller one decides: the other may be a hub with a fan as large
 // as the mesh. Of two hubs, the edge may be anywhere.
 bool
@@ -68,8 +85,8 @@ TriangleMesh::hasEdge (Index p, Index q) const
 void
 TriangleMesh::note (Index t)
 {
-  if (journal.is_recording_)
-    journal.entries_.push_back ({t, triangles[t], neighbors[t]});
+  if (is_recording_)
+    changes_.push_back ({t, triangles[t], neighbors[t]});
 }
 
 void
@@ -82,24 +99,23 @@ TriangleMesh::set (Index t, const Triangle& corners)
 void
 TriangleMesh::setTriangleOf (Index p, Index t)
 {
-  if (journal.is_recording_)
-    journal.entries_.push_back ({NONE, {}, {p, triangle_of[p], NONE}});
+  if (is_recording_)
+    changes_.push_back ({NONE, {}, {p, triangle_of[p], NONE}});
   triangle_of[p] = t;
 }
 
 void
 TriangleMesh::recordChanges (bool is_on)
 {
-  journal.entries_.clear ();
-  journal.is_recording_ = is_on;
+  changes_.clear ();
+  is_recording_ = is_on;
 }
 
 void
 TriangleMesh::undo (std::size_t mark)
 {
-  std::vector<MeshJournal::Entry>& entries = journal.entries_;
-  for (; entries.size () > mark; entries.pop_back ()) {
-    const MeshJournal::Entry& entry = entries.back ();
+  for (; changes_.size () > mark; changes_.pop_back ()) {
+    const Entry& entry = changes_.back ();
     if (entry.triangle == NONE) {
       triangle_of[entry.neighbors[0]] = entry.neighbors[1];
       continue;
@@ -107,6 +123,17 @@ TriangleMesh::undo (std::size_t mark)
     triangles[entry.triangle] = entry.corners;
     neighbors[entry.triangle] = entry.neighbors;
   }
+}
+
+std::vector<Index>
+TriangleMesh::changedTriangles () const
+{
+  std::vector<Index> changed;
+  for (const Entry& entry : changes_)
+    if (entry.triangle != NONE)
+      changed.push_back (entry.triangle);
+  sortUnique (changed);
+  return changed;
 }
 
 void

@@ -23,39 +23,14 @@ areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-/// Records changes of a mesh, so that they can be undone.
-class MeshJournal
-{
-public:
-  /// Appends the changed triangles, some possibly more than once.
-  void appendTriangles (std::vector<Index>& list) const
-  {
-    for (const Entry& entry : entries_)
-      if (entry.triangle != NONE)
-        list.push_back (entry.triangle);
-  }
-
-private:
-  friend struct TriangleMesh;
-  struct Entry
-  {
-    Index triangle; // NONE: the entry belongs to a point
-    Triangle corners;
-    std::array<Index, 3> neighbors; // of a point: (point, its triangle, not used)
-  };
-  std::vector<Entry> entries_;
-  bool is_recording_ = false;
-};
-
 /// Oriented manifold with boundary. The corners of a triangle are anti-clockwise seen from the
 /// front; its neighbour i is across the edge opposite to corner i, NONE at the boundary. The
-/// triangles around a vertex are one fan. A copy has a journal of its own.
+/// triangles around a vertex are one fan. Changes by flip, split and replaceFan can be undone.
 struct TriangleMesh
 {
   std::vector<Triangle> triangles;
   std::vector<std::array<Index, 3>> neighbors;
   std::vector<Index> triangle_of; ///< per point: one of its triangles, NONE if it is not a vertex
-  MeshJournal journal;            ///< of flip, split and replaceFan, while changes are recorded
 
   static std::uint8_t next (std::uint8_t side)
   {
@@ -89,6 +64,11 @@ struct TriangleMesh
   /// boundary edge to the other. Empty if p is not a vertex. O(triangles around p).
   void fan (Index p, std::vector<Index>& fan_triangles) const;
 
+  /// The same, and sets `ring` to the points that share an edge with p: triangle k has the ring points
+  /// k and k + 1 as its other corners.
+  /// \return whether the fan is closed
+  bool fan (Index p, std::vector<Index>& fan_triangles, std::vector<Index>& ring) const;
+
   /// True if p and q, both vertices, share an edge. Also true if both have more than 500 triangles.
   /// O(triangles around p).
   bool hasEdge (Index p, Index q) const;
@@ -111,15 +91,18 @@ struct TriangleMesh
   void replaceFan (Index p, const std::vector<Index>& fan_triangles,
                    const std::vector<Triangle>& filling);
 
-  /// Clears the journal, and records changes from here on.
+  /// Forgets the recorded changes, and records those from here on.
   /// \param is_on false: records no longer
   void recordChanges (bool is_on = true);
 
   /// The current state, for undo (). Requires recording.
-  std::size_t mark () const { return journal.entries_.size (); }
+  std::size_t mark () const { return changes_.size (); }
 
   /// Undoes all recorded changes since mark () returned this value, the last one first.
   void undo (std::size_t mark);
+
+  /// The triangles of all recorded changes, ascending.
+  std::vector<Index> changedTriangles () const;
 
   /// Sets neighbours and triangle_of from the triangles.
   /// O(n), on all threads. Temporarily 5 bytes per triangle, 12 if they are in random order.
@@ -131,10 +114,21 @@ struct TriangleMesh
                 const std::vector<std::uint8_t>* may_be_split = nullptr);
 
 private:
+  // What was there before a change.
+  struct Entry
+  {
+    Index triangle; // NONE: the entry belongs to a point
+    Triangle corners;
+    std::array<Index, 3> neighbors; // of a point: (point, its triangle, not used)
+  };
+
   void link (Index t, std::uint8_t side, MeshEdge other);
   void set (Index t, const Triangle& corners);
   void setTriangleOf (Index p, Index t);
   void note (Index t);
+
+  std::vector<Entry> changes_;
+  bool is_recording_ = false;
 };
 
 /// Visits the triangles around a point: anti-clockwise, at the boundary then clockwise from the

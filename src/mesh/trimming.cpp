@@ -47,10 +47,10 @@ private:
   // The triangles around p are one fan of the original mesh; the remaining ones form runs.
   void keepLargestFan (Index p)
   {
-    mesh_.fan (p, fan_);
+    const bool is_closed = mesh_.fan (p, fan_, ring_);
     const auto isKept = [this] (Index t) { return is_removed_[t] == 0; };
     // In a closed fan, a run may go on from the last triangle to the first: begin at a gap.
-    if (isClosed (p))
+    if (is_closed)
       std::rotate (fan_.begin (), std::find_if_not (fan_.begin (), fan_.end (), isKept),
                    fan_.end ());
     std::size_t largest = 0, length = 0, end = 0;
@@ -64,12 +64,6 @@ private:
     for (std::size_t i = 0; i < fan_.size (); ++i)
       if (i + largest < end || i >= end)
         takeOut (fan_[i]);
-  }
-
-  bool isClosed (Index p) const
-  {
-    const Index first = fan_.front ();
-    return mesh_.neighbors[first][TriangleMesh::previous (mesh_.sideOf (first, p))] != NONE;
   }
 
   void compact ()
@@ -100,7 +94,7 @@ private:
   RunContext run_;
   std::vector<std::uint8_t> is_removed_; // of each triangle
   std::vector<Index> changed_;           // points that lost a triangle, possibly repeated
-  std::vector<Index> fan_;               // of the current point
+  std::vector<Index> fan_, ring_;        // of the current point
 };
 
 } // namespace

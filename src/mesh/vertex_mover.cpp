@@ -28,15 +28,8 @@ VertexMover::costOf (const Index* first, const Index* last)
 bool
 VertexMover::takeOut (Index v, double& change)
 {
-  mesh_.fan (v, fan_);
-  if (fan_.size () < 3 || fan_.size () > largest_fan_)
+  if (!mesh_.fan (v, fan_, polygon_) || fan_.size () < 3 || fan_.size () > largest_fan_)
     return false;
-  const Index last = fan_.back ();
-  if (mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, v))] != fan_.front ())
-    return false; // at the boundary
-  polygon_.clear ();
-  for (Index t : fan_)
-    polygon_.push_back (mesh_.from ({t, mesh_.sideOf (t, v)}));
   filled_ = filling_.fill (
       polygon_, [this] (Index p, Index q, Index r) { return cost_ (p, q, r).cost; },
       [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); });

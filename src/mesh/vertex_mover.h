@@ -62,11 +62,6 @@ public:
 
   CachedCost& cost () { return cost_; }
 
-  /// Starts a new journal; undo () returns to this state.
-  void start () { mesh_.recordChanges (); }
-  void undo () { mesh_.undo (0); }
-  const MeshJournal& journal () const { return mesh_.journal; }
-
   /// Old and new neighbours of all moved vertices, undone moves included. Appended; the caller
   /// clears the list.
   std::vector<Index>& dirty () { return dirty_; }

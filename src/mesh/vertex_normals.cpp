@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pcl/surface/floater/vertex_normals.h>
 
-#include "core/csr_lists.h"
 #include "core/parallel.h"
+#include "mesh/vertex_stars.h"
 
 #include <Eigen/Geometry>
 
@@ -72,24 +72,17 @@ vertexNormals (const std::vector<Eigen::Vector3d>& positions,
       if (corner >= positions.size ())
         throw std::out_of_range ("a triangle names point " + std::to_string (corner) + " of " +
                                  std::to_string (positions.size ()));
-  const CsrLists around = makeCsrLists (positions.size (), [&triangles] (auto&& emit) {
-    for (std::size_t t = 0; t < triangles.size (); ++t)
-      for (const std::uint32_t corner : triangles[t])
-        emit (corner, static_cast<Index> (t));
-  });
   std::vector<Eigen::Vector3f> normals (positions.size ());
   const RunContext run (std::max (threads, 0));
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+  const TriangleRanges ranges (triangles, positions.size (), run);
+  parallelTasks (run, ranges.count (), [&] (std::size_t r) {
+    const VertexStars stars (triangles, ranges, r);
     std::vector<CornerTerm> terms;
-    for (std::size_t p = first; p < last; ++p) {
+    for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r); ++p) {
       terms.clear ();
-      for (const Index t : around.row (p)) {
-        const auto& triangle = triangles[t];
-        const auto c = static_cast<std::size_t> (
-            std::find (triangle.begin (), triangle.end (), static_cast<Index> (p)) -
-            triangle.begin ());
-        const CornerTerm term = cornerTerm (positions[p], positions[triangle[(c + 1) % 3]],
-                                            positions[triangle[(c + 2) % 3]]);
+      for (const Wedge& wedge : stars.of (p)) {
+        const CornerTerm term =
+            cornerTerm (positions[p], positions[wedge.next], positions[wedge.previous]);
         if (term.angle > 0.0)
           terms.push_back (term);
       }

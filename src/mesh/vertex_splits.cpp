@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl::floater {
 namespace {
@@ -38,14 +37,10 @@ public:
   void dropUnused (const RunContext& run) { cutter_.dropUnused (run); }
 
 private:
-  Eigen::Vector3d normal (Index a, Index b, Index c) const
-  {
-    return (positions_[b] - positions_[a]).cross (positions_[c] - positions_[a]).normalized ();
-  }
   Eigen::Vector3d normalOf (Index t) const
   {
     return t == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
-                     : normal (mesh_.triangles[t][0], mesh_.triangles[t][1], mesh_.triangles[t][2]);
+                     : areaVectorOf (mesh_.triangles[t], positions_).normalized ();
   }
   Cut bestCut (Index v, Index p, const Return* given = nullptr);
   Cut bestNear (Index p, std::size_t near);
@@ -249,28 +244,28 @@ VertexSplitter::move (Index p)
 
 } // namespace
 
-VertexSplits
+std::size_t
 splitVertices (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const std::vector<Index>& added, const SplitLimits& limits, const RunContext& run)
 {
-  VertexSplits done;
+  std::size_t points = 0;
   VertexSplitter splitter (mesh, positions, limits, run);
   ProgressLoop progress (run, added.size ());
   for (const Index p : added) {
-    done.points += splitter.add (p) ? 1 : 0;
+    points += splitter.add (p) ? 1 : 0;
     progress.next ();
   }
-  for (std::size_t pass = 0, before = 0; pass < limits.passes; ++pass, before = done.moves) {
+  bool has_moved = true;
+  for (std::size_t pass = 0; has_moved && pass < limits.passes; ++pass) {
+    has_moved = false;
     for (const Index p : added)
       if (splitter.isAtFold (p)) {
-        done.moves += splitter.move (p) ? 1 : 0;
+        has_moved = splitter.move (p) || has_moved;
         progress.next ();
       }
-    if (done.moves == before)
-      break;
   }
   splitter.dropUnused (run);
-  return done;
+  return points;
 }
 
 } // namespace pcl::floater

@@ -27,13 +27,6 @@ struct SplitLimits
   std::size_t passes = 10;      ///< over the points at folds
 };
 
-/// Changes made.
-struct VertexSplits
-{
-  std::size_t points = 0; ///< points added
-  std::size_t moves = 0;  ///< points at folds that went to another vertex
-};
-
 /// Adds points to a mesh: each, in the given order, by the cheapest split of one of the nearest
 /// vertices. A split cuts the fan of a vertex along two edges, or one at the boundary, gives the new
 /// point a part of it, and closes the cuts by triangles with both points (the inverse of an edge
@@ -41,7 +34,8 @@ struct VertexSplits
 /// are left, a point is taken out by a collapse into one of its neighbours, and split off anew where
 /// that costs least. One thread, O(log n) for each point.
 /// \param added points without triangles
-VertexSplits
+/// \return number of points added
+std::size_t
 splitVertices (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const std::vector<Index>& added, const SplitLimits& limits, const RunContext& run);
 

@@ -184,8 +184,7 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
   report.statistics.holes_filled = surface.holes_filled;
   std::size_t too_deep = 0;
   const BoundaryLoop* widest = nullptr;
-  for (const JudgedLoop& judged : surface.doubtful_loops) {
-    const BoundaryLoop& loop = judged.loop;
+  for (const BoundaryLoop& loop : surface.doubtful_loops) {
     LoopDecision decision;
     decision.points = loop.points.size ();
     decision.width = loop.width * points.scale;
@@ -194,8 +193,8 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
     for (const Index p : loop.points)
       decision.at = std::min (decision.at, points.cloud_index[p]);
     decision.stays_open = loop.keep_open;
-    decision.probability = judged.judgement.probability ();
-    decision.is_too_deep = judged.judgement.is_too_deep;
+    decision.probability = loop.judgement.probability ();
+    decision.is_too_deep = loop.judgement.is_too_deep;
     if (decision.is_too_deep && decision.stays_open && decision.probability <= 0.5) {
       ++too_deep;
       if (widest == nullptr || loop.width > widest->width)

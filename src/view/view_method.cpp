@@ -66,10 +66,9 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, points.positions, spacing, run);
   // No point lies beyond any of them: the longest are kept.
-  std::vector<LoopJudgement> judgements (loops.size ());
-  for (std::size_t i = 0; i < loops.size (); ++i)
-    judgements[i].empty_length = loops[i].length;
-  chooseOpenLoops (loops, judgements, components.count, settings.holes, 1.0 / points.scale);
+  for (BoundaryLoop& loop : loops)
+    loop.judgement.empty_length = loop.length;
+  chooseOpenLoops (loops, components.count, settings.holes, 1.0 / points.scale);
   std::vector<Eigen::Vector3f> normals;
   normals.reserve (points.size ());
   for (const Eigen::Vector3d& position : points.positions) {

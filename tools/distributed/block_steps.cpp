@@ -214,13 +214,13 @@ starsStep (const StepContext& context, std::size_t block)
     std::copy (own_reach.begin (), own_reach.end (), beside.reach.begin () + own_first);
     std::vector<float> spacing (positions.size (), 0.0F);
     std::copy (own_spacing.begin (), own_spacing.end (), spacing.begin () + own_first);
-    const BeyondNeighbors beyond{search.tree (), spacing, beside, settings.reach};
+    const BeyondNeighbors beyond{search.tree (), spacing, beside};
     std::vector<Index> left_places = left;
     toPlaces (local, left_places);
     const Rows rows =
         is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
     const Stars begun =
-        beginStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
+        makeStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
     Stars made;
     for (std::size_t i = 0; i < rows.size (); ++i)
       appendStar (begun, rows[i], made);

@@ -32,7 +32,7 @@ neighborsStep (const StepContext& context, std::size_t block);
 void
 planesStep (const StepContext& context, std::size_t block);
 
-/// Delaunay stars, each by itself (see beginStars).
+/// Delaunay stars, each by itself (see makeStars).
 void
 starsStep (const StepContext& context, std::size_t block);
 

@@ -7,27 +7,16 @@
 #include "local/planar_star.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace pcl::floater {
-namespace {
-// Circumradius of the triangle of the origin, a and b: the product of its sides over four times its
-// area.
-double
-circumradius (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  const double area4 = 2.0 * std::abs (cross (a, b));
-  return a.norm () * b.norm () * (a - b).norm () /
-         std::max (area4, std::numeric_limits<double>::min ());
-}
-
-} // namespace
-
 std::vector<Gap>
 findGaps (const Stars& stars, const std::vector<float>& spacing, double circumradius_ratio,
           const RunContext& run)
 {
+  // Of the triangle of a star's centre and two neighbours.
+  const auto radius = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return circumradius (Eigen::Vector3d::Zero (), {a.x (), a.y (), 0.0}, {b.x (), b.y (), 0.0});
+  };
   ProgressLoop progress (run, stars.neighbors.rows ());
   std::vector<Gap> gaps;
   std::vector<std::uint8_t>
@@ -45,10 +34,10 @@ findGaps (const Stars& stars, const std::vector<float>& spacing, double circumra
       const std::size_t j = (i + 1) % count;
       const double mean_spacing = (spacing[p] + spacing[star[i]] + spacing[star[j]]) / 3.0;
       const bool has_no_triangle = stars.open[p] != 0 && i + 1 == count;
-      missing[i] = has_no_triangle ||
-                           circumradius (offsets[i], offsets[j]) > circumradius_ratio * mean_spacing
-                       ? 1
-                       : 0;
+      missing[i] =
+          has_no_triangle || radius (offsets[i], offsets[j]) > circumradius_ratio * mean_spacing
+              ? 1
+              : 0;
       present += missing[i] == 0 ? 1 : 0;
     }
     if (present == count)

@@ -4,14 +4,12 @@
 #include "floater/solvers/solver_parts.h"
 
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 
 #include <cmath>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
-using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
 class IncompleteFactors : public Eigen::IncompleteLUT<double>
@@ -42,12 +40,12 @@ struct Preconditioner
 // Solves for one right-hand side.
 // \return the solution, and iterations
 std::pair<Vector, int>
-iterate (const LinearSystem& system, Eigen::Index side, const Eigen::Map<const Matrix>& matrix,
-         const IncompleteFactors& factors, const SolverOptions& options, const RunContext& run)
+iterate (const LinearSystem& system, Eigen::Index side, const IncompleteFactors& factors,
+         const SolverOptions& options, const RunContext& run)
 {
-  Eigen::BiCGSTAB<Matrix, Preconditioner> solver; // van der Vorst 1992
+  Eigen::BiCGSTAB<SystemMatrix, Preconditioner> solver; // van der Vorst 1992
   solver.preconditioner () = {&factors, &run};
-  solver.compute (matrix);
+  solver.compute (system.matrix);
   Vector rest = system.rhs.col (side), solution = Vector::Zero (rest.size ()), step;
   double norm = rest.norm (), target = options.tolerance * norm;
   int iterations = 0;
@@ -79,9 +77,6 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
                    Solution& solution)
 {
   const Eigen::Index n = system.rhs.rows ();
-  const Eigen::Map<const Matrix> matrix (n, n, static_cast<Eigen::Index> (system.nonzeros ()),
-                                         system.row_offsets.data (), system.columns.data (),
-                                         system.values.data ());
   IncompleteFactors factors;
   // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
   const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
@@ -93,13 +88,13 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
                     "the incomplete factorization", "use a smaller fill, or fewer points");
   factors.setFillfactor (static_cast<int> (fill));
   factors.setDroptol (options.ilut_drop);
-  factors.compute (matrix);
+  factors.compute (system.matrix);
   solution.nnz_factors = factors.nonZeros ();
 
   solution.uv.resize (n, 2);
   parallelTasks (run, 2, [&] (std::size_t side) {
     const auto at = static_cast<Eigen::Index> (side);
-    const auto [unknowns, iterations] = iterate (system, at, matrix, factors, options, run);
+    const auto [unknowns, iterations] = iterate (system, at, factors, options, run);
     solution.uv.col (at) = unknowns;
     solution.iterations[side] = static_cast<std::size_t> (iterations);
   });
@@ -113,17 +108,15 @@ void
 sweep (const LinearSystem& system, const RunContext& run, Eigen::MatrixX2d& uv)
 {
   ProgressLoop progress (run);
-  for (std::size_t row = 0; row < system.unknowns (); ++row) {
+  for (Eigen::Index i = 0; i < system.matrix.rows (); ++i) {
     progress.next ();
-    const auto i = static_cast<Eigen::Index> (row);
     Eigen::RowVector2d sum = system.rhs.row (i);
     double diagonal = 0.0;
-    system.visitRow (row, [&] (std::size_t column, double value) {
-      if (column == row)
-        diagonal = value;
+    for (SystemMatrix::InnerIterator entry (system.matrix, i); entry; ++entry)
+      if (entry.col () == i)
+        diagonal = entry.value ();
       else
-        sum -= value * uv.row (static_cast<Eigen::Index> (column));
-    });
+        sum -= entry.value () * uv.row (entry.col ());
     uv.row (i) = sum / diagonal;
   }
 }

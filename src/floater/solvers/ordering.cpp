@@ -12,26 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// The pattern of A + A^T without the diagonal.
-CsrLists
-symmetricPattern (const LinearSystem& system)
-{
-  const auto has = [&system] (std::size_t i, std::size_t column) {
-    return std::binary_search (system.columns.begin () + system.row_offsets[i],
-                               system.columns.begin () + system.row_offsets[i + 1],
-                               static_cast<int> (column));
-  };
-  return makeCsrLists (system.unknowns (), [&] (const auto& emit) {
-    for (std::size_t i = 0; i < system.unknowns (); ++i)
-      system.visitRow (i, [&] (std::size_t j, double) {
-        if (i == j)
-          return;
-        emit (i, static_cast<Index> (j));
-        if (!has (j, i))
-          emit (j, static_cast<Index> (i));
-      });
-  });
-}
+using Order = Eigen::PermutationMatrix<Eigen::Dynamic>;
 
 // Calls METIS with a state of rand () of its own.
 int
@@ -49,17 +30,15 @@ callMetis (cholmod_sparse& pattern, int* order, cholmod_common& common)
 
 // Approximate minimum degree (Amestoy, Davis and Duff 1996), or nested dissection by METIS (Karypis
 // and Kumar 1998).
-std::vector<int>
-orderByCholmod (const CsrLists& symmetric, Ordering ordering)
+Order
+orderByCholmod (SystemMatrix& symmetric, Ordering ordering)
 {
-  std::vector<int> offsets (symmetric.offsets.begin (), symmetric.offsets.end ());
-  std::vector<int> rows (symmetric.ids.begin (), symmetric.ids.end ());
-  std::vector<int> order (symmetric.rows ());
+  Order order (symmetric.rows ());
   cholmod_sparse pattern{};
-  pattern.nrow = pattern.ncol = order.size ();
-  pattern.nzmax = rows.size ();
-  pattern.p = offsets.data ();
-  pattern.i = rows.data ();
+  pattern.nrow = pattern.ncol = static_cast<std::size_t> (symmetric.rows ());
+  pattern.nzmax = static_cast<std::size_t> (symmetric.nonZeros ());
+  pattern.p = symmetric.outerIndexPtr ();
+  pattern.i = symmetric.innerIndexPtr ();
   pattern.stype = 1; // symmetric, read from its upper triangle
   pattern.itype = CHOLMOD_INT;
   pattern.xtype = CHOLMOD_PATTERN;
@@ -69,8 +48,8 @@ orderByCholmod (const CsrLists& symmetric, Ordering ordering)
   cholmod_start (&common);
   common.print = 0;
   const int done = ordering == Ordering::METIS
-                       ? callMetis (pattern, order.data (), common)
-                       : cholmod_amd (&pattern, nullptr, 0, order.data (), &common);
+                       ? callMetis (pattern, order.indices ().data (), common)
+                       : cholmod_amd (&pattern, nullptr, 0, order.indices ().data (), &common);
   cholmod_finish (&common);
   if (done == 0)
     throw std::bad_alloc (); // the pattern is valid; METIS does not tell what it lacks
@@ -79,12 +58,15 @@ orderByCholmod (const CsrLists& symmetric, Ordering ordering)
 
 // Each component level by level, and in a level those of few neighbours first (Cuthill and McKee
 // 1969); the reverse of that (George 1971).
-std::vector<int>
-reverseCuthillMckee (const CsrLists& graph)
+Order
+reverseCuthillMckee (const SystemMatrix& graph)
 {
   std::vector<int> order;
-  std::vector<std::uint8_t> seen (graph.rows (), 0);
-  const auto neighbors = [&graph] (int v) { return graph.row (static_cast<std::size_t> (v)); };
+  std::vector<std::uint8_t> seen (static_cast<std::size_t> (graph.rows ()), 0);
+  const auto isNew = [&seen] (int v) {
+    return std::exchange (seen[static_cast<std::size_t> (v)], std::uint8_t{1}) == 0;
+  };
+  const int* const offsets = graph.outerIndexPtr ();
   const auto addFrom = [&] (int start) {
     std::size_t levels = 0, level_end = order.size ();
     seen[static_cast<std::size_t> (start)] = 1;
@@ -95,21 +77,21 @@ reverseCuthillMckee (const CsrLists& graph)
         level_end = order.size ();
       }
       const auto first = static_cast<std::ptrdiff_t> (order.size ());
-      for (const Index next : neighbors (order[head]))
-        if (std::exchange (seen[next], std::uint8_t{1}) == 0)
-          order.push_back (static_cast<int> (next));
-      std::stable_sort (order.begin () + first, order.end (), [&] (int a, int b) {
-        return neighbors (a).size () < neighbors (b).size ();
+      for (SystemMatrix::InnerIterator next (graph, order[head]); next; ++next)
+        if (isNew (next.index ()))
+          order.push_back (next.index ());
+      std::stable_sort (order.begin () + first, order.end (), [offsets] (int a, int b) {
+        return offsets[a + 1] - offsets[a] < offsets[b + 1] - offsets[b];
       });
     }
     return levels;
   };
-  for (std::size_t v = 0; v < graph.rows (); ++v) {
-    if (seen[v] != 0)
+  for (int v = 0; v < graph.rows (); ++v) {
+    if (seen[static_cast<std::size_t> (v)] != 0)
       continue;
     // It begins at a vertex that is nearly as far as possible from another (George and Liu 1979).
     const std::size_t begin = order.size ();
-    std::size_t levels = addFrom (static_cast<int> (v));
+    std::size_t levels = addFrom (v);
     for (std::size_t before = 0; before < levels;) {
       before = levels;
       const int last = order.back ();
@@ -120,39 +102,17 @@ reverseCuthillMckee (const CsrLists& graph)
     }
   }
   std::reverse (order.begin (), order.end ());
-  return order;
+  return Order (Eigen::Map<Eigen::VectorXi> (order.data (), graph.rows ()));
 }
 
 } // namespace
 
-std::vector<int>
-orderUnknowns (const LinearSystem& system, Ordering ordering)
+Order
+orderUnknowns (const SystemMatrix& matrix, Ordering ordering)
 {
-  const CsrLists symmetric = symmetricPattern (system);
+  SystemMatrix symmetric = matrix + SystemMatrix (matrix.transpose ());
   return ordering == Ordering::REVERSE_CUTHILL_MCKEE ? reverseCuthillMckee (symmetric)
                                                      : orderByCholmod (symmetric, ordering);
-}
-
-LinearSystem
-permuteSystem (const LinearSystem& system, const std::vector<int>& order)
-{
-  std::vector<int> place (order.size ());
-  for (std::size_t i = 0; i < order.size (); ++i)
-    place[static_cast<std::size_t> (order[i])] = static_cast<int> (i);
-  LinearSystem permuted;
-  permuted.columns.reserve (system.nonzeros ());
-  permuted.values.reserve (system.nonzeros ());
-  permuted.rhs.resize (system.rhs.rows (), 2);
-  std::vector<std::pair<int, double>> row;
-  for (std::size_t i = 0; i < order.size (); ++i) {
-    row.clear ();
-    system.visitRow (static_cast<std::size_t> (order[i]), [&] (std::size_t column, double value) {
-      row.emplace_back (place[column], value);
-    });
-    permuted.addRow (row);
-    permuted.rhs.row (static_cast<Eigen::Index> (i)) = system.rhs.row (order[i]);
-  }
-  return permuted;
 }
 
 } // namespace pcl::floater

@@ -8,59 +8,51 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace pcl::floater {
-void
-LinearSystem::addRow (std::vector<std::pair<int, double>>& row)
-{
-  std::sort (row.begin (), row.end ());
-  for (const auto& [column, value] : row) {
-    columns.push_back (column);
-    values.push_back (value);
-  }
-  row_offsets.push_back (static_cast<int> (columns.size ()));
-}
-
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
                 const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
                 const std::vector<std::uint8_t>& reachable, std::size_t most_entries)
 {
   LinearSystem system;
-  std::vector<Index> place_in_loop (neighbors.rows (), NONE);
+  std::vector<Index> place_in_loop (neighbors.rows (), NONE), unknown_of_point = place_in_loop;
   for (std::size_t i = 0; i < loop.size (); ++i)
     place_in_loop[loop[i]] = static_cast<Index> (i);
-  system.unknown_of_point.assign (neighbors.rows (), NONE);
   for (std::size_t p = 0; p < neighbors.rows (); ++p)
     if (place_in_loop[p] == NONE && reachable[p] != 0) {
-      system.unknown_of_point[p] = static_cast<Index> (system.point_of_unknown.size ());
+      unknown_of_point[p] = static_cast<Index> (system.point_of_unknown.size ());
       system.point_of_unknown.push_back (static_cast<Index> (p));
     }
-  const std::size_t unknowns = system.point_of_unknown.size ();
-  system.row_offsets.reserve (unknowns + 1);
-  system.columns.reserve (unknowns + neighbors.ids.size ());
-  system.values.reserve (unknowns + neighbors.ids.size ());
-  system.rhs.setZero (static_cast<Eigen::Index> (unknowns), 2);
-  std::vector<std::pair<int, double>> row;
-  for (std::size_t i = 0; i < unknowns; ++i) {
-    row.assign (1, {static_cast<int> (i), 0.0});
-    const Index p = system.point_of_unknown[i];
+  const auto unknowns = static_cast<Eigen::Index> (system.point_of_unknown.size ());
+  std::size_t entries = 0;
+  system.matrix.resize (unknowns, unknowns);
+  system.matrix.reserve (unknowns + static_cast<Eigen::Index> (neighbors.ids.size ()));
+  system.rhs.setZero (unknowns, 2);
+  std::vector<std::pair<Eigen::Index, double>> row;
+  for (Eigen::Index i = 0; i < unknowns; ++i) {
+    row.assign (1, {i, 0.0});
+    const Index p = system.point_of_unknown[static_cast<std::size_t> (i)];
     for (std::size_t entry = neighbors.offsets[p]; entry < neighbors.offsets[p + 1]; ++entry) {
       const Index q = neighbors.ids[entry];
       const double weight = weights[entry];
-      if (system.unknown_of_point[q] != NONE)
-        row.emplace_back (static_cast<int> (system.unknown_of_point[q]), -weight);
+      if (unknown_of_point[q] != NONE)
+        row.emplace_back (unknown_of_point[q], -weight);
       else if (place_in_loop[q] != NONE)
-        system.rhs.row (static_cast<Eigen::Index> (i)) +=
-            weight * loop_uv[place_in_loop[q]].transpose ();
+        system.rhs.row (i) += weight * loop_uv[place_in_loop[q]].transpose ();
       else
         continue;
       row.front ().second += weight;
     }
-    requireCountable (system.nonzeros () + row.size (), most_entries, "the linear system",
+    requireCountable (entries += row.size (), most_entries, "the linear system",
                       "use fewer points or fewer neighbours, or make a surface instead of a disc");
-    system.addRow (row);
+    std::sort (row.begin (), row.end ());
+    system.matrix.startVec (i);
+    for (const auto& [column, value] : row)
+      system.matrix.insertBack (i, column) = value;
   }
+  system.matrix.finalize ();
   return system;
 }
 
@@ -148,14 +140,12 @@ measureResidual (const LinearSystem& system, Eigen::Index side,
   constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon ();
   Residual residual{system.rhs.col (side), system.rhs.col (side).norm (), 0.0};
   Eigen::VectorXd magnitude = residual.rest.cwiseAbs ();
-  for (std::size_t row = 0; row < system.unknowns (); ++row) {
-    const auto i = static_cast<Eigen::Index> (row);
-    system.visitRow (row, [&] (std::size_t column, double value) {
-      const double term = value * solution[static_cast<Eigen::Index> (column)];
+  for (Eigen::Index i = 0; i < system.matrix.rows (); ++i)
+    for (SystemMatrix::InnerIterator entry (system.matrix, i); entry; ++entry) {
+      const double term = entry.value () * solution[entry.col ()];
       residual.rest[i] -= term;
       magnitude[i] += std::abs (term);
-    });
-  }
+    }
   residual.rounding = ROUNDING * magnitude.norm ();
   return residual;
 }
@@ -193,12 +183,14 @@ solve (const LinearSystem& system, const SolverOptions& options, const RunContex
     return solution;
   }
   // Any solver can solve the reordered system as it comes.
-  const std::vector<int> order = orderUnknowns (system, ordering);
-  solveAsItIs (permuteSystem (system, order), Ordering::NATURAL, options, run, solution);
-  const Eigen::MatrixX2d uv = std::move (solution.uv);
-  solution.uv.resize (uv.rows (), 2);
-  for (Eigen::Index i = 0; i < uv.rows (); ++i)
-    solution.uv.row (order[static_cast<std::size_t> (i)]) = uv.row (i);
+  const Eigen::PermutationMatrix<Eigen::Dynamic> order = orderUnknowns (system.matrix, ordering);
+  const Eigen::PermutationMatrix<Eigen::Dynamic> place = order.inverse ();
+  LinearSystem ordered;
+  ordered.matrix = system.matrix.twistedBy (place);
+  ordered.rhs = place * system.rhs;
+  solveAsItIs (ordered, Ordering::NATURAL, options, run, solution);
+  if (!solution.problem)
+    solution.uv = order * Eigen::MatrixX2d (solution.uv);
   return solution;
 }
 

@@ -7,40 +7,26 @@
 #include "core/problem.h"
 #include "core/run_context.h"
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <pcl/surface/floater/options.h>
 
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {
-/// A u = b for both coordinates of the interior points, in compressed rows.
+/// A square matrix in compressed rows, whose columns ascend; see MOST_MATRIX_ENTRIES.
+using SystemMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// A u = b for both coordinates of the interior points.
 struct LinearSystem
 {
   std::vector<Index> point_of_unknown; ///< interior points that take part, ascending
-  std::vector<Index> unknown_of_point; ///< per point; NONE for points of the loop and left out ones
-  std::vector<int> row_offsets{0};     ///< one more than there are unknowns; MOST_MATRIX_ENTRIES
-  std::vector<int> columns;            ///< ascending in each row
-  std::vector<double> values;          ///< parallel to columns
-  Eigen::MatrixX2d rhs;                ///< per unknown, for either coordinate
+  SystemMatrix matrix;
+  Eigen::MatrixX2d rhs; ///< per unknown, for either coordinate
 
-  std::size_t unknowns () const { return row_offsets.size () - 1; }
-  std::size_t nonzeros () const { return values.size (); }
-
-  /// Calls visit (column, value) for each entry of a row.
-  template <typename Visit>
-  void visitRow (std::size_t row, Visit&& visit) const
-  {
-    const auto last = static_cast<std::size_t> (row_offsets[row + 1]);
-    for (auto entry = static_cast<std::size_t> (row_offsets[row]); entry < last; ++entry)
-      visit (static_cast<std::size_t> (columns[entry]), values[entry]);
-  }
-
-  /// Adds a row below the others, apart from its right-hand sides.
-  /// \param row (column, value) in any order; sorted
-  void addRow (std::vector<std::pair<int, double>>& row);
+  std::size_t unknowns () const { return static_cast<std::size_t> (matrix.rows ()); }
+  std::size_t nonzeros () const { return static_cast<std::size_t> (matrix.nonZeros ()); }
 };
 
 /// Assembles the system of TW 385, equation (1): the diagonal of a row is the sum of its weights,

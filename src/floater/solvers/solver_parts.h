@@ -6,7 +6,6 @@
 #include "floater/solvers/solver.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace pcl::floater {
 // Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the residual and the pivots. The direct ones get the rows as the columns of the
@@ -63,17 +62,12 @@ measureResidual (const LinearSystem& system, Eigen::Index side,
                  const Eigen::Ref<const Eigen::VectorXd>& solution);
 
 /// An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T:
-/// entry i is the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow the
+/// row i of the reordered system becomes the row of the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow the
 /// elimination tree. METIS draws from rand (), of which it gets a state of its own; another thread
 /// that draws meanwhile changes the order, so that only one thread is in METIS at a time.
 /// \param ordering AMD, METIS or REVERSE_CUTHILL_MCKEE
 /// \throws std::bad_alloc
-std::vector<int>
-orderUnknowns (const LinearSystem& system, Ordering ordering);
-
-/// The system with its rows and columns in another order: row i is row order[i] of the original,
-/// and columns are ascending again. Its points are left out. O(entries log (row length)).
-LinearSystem
-permuteSystem (const LinearSystem& system, const std::vector<int>& order);
+Eigen::PermutationMatrix<Eigen::Dynamic>
+orderUnknowns (const SystemMatrix& matrix, Ordering ordering);
 
 } // namespace pcl::floater

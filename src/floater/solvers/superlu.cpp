@@ -70,9 +70,9 @@ solveWithSuperlu (const LinearSystem& system, Ordering ordering, Solution& solut
   // SuperLU only reads these arrays, though its pointers are not const.
   Allocated all;
   dCreate_CompRow_Matrix (&all.rows, n, n, static_cast<int> (system.nonzeros ()),
-                          const_cast<double*> (system.values.data ()),
-                          const_cast<int*> (system.columns.data ()),
-                          const_cast<int*> (system.row_offsets.data ()), SLU_NR, SLU_D, SLU_GE);
+                          const_cast<double*> (system.matrix.valuePtr ()),
+                          const_cast<int*> (system.matrix.innerIndexPtr ()),
+                          const_cast<int*> (system.matrix.outerIndexPtr ()), SLU_NR, SLU_D, SLU_GE);
   Eigen::MatrixX2d uv = system.rhs; // solved in place
   dCreate_Dense_Matrix (&all.sides, n, 2, uv.data (), n, SLU_DN, SLU_D, SLU_GE);
   std::vector<int> column_order (system.unknowns ()), row_order (system.unknowns ());

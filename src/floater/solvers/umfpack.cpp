@@ -74,20 +74,21 @@ solveWithIndices (const LinearSystem& system, const Control& control, const RunC
   Info info{};
   Handle<Interface::FREE_NUMERIC> numeric;
   { // the matrix is not needed afterwards: there is no refinement
-    const std::vector<Int> offsets (system.row_offsets.begin (), system.row_offsets.end ());
-    const std::vector<Int> columns (system.columns.begin (), system.columns.end ());
     const auto n = static_cast<Int> (system.unknowns ());
+    const int *first = system.matrix.outerIndexPtr (), *column = system.matrix.innerIndexPtr ();
+    const double* const values = system.matrix.valuePtr ();
+    const std::vector<Int> offsets (first, first + n + 1), columns (column, column + first[n]);
     void* handle = nullptr;
     std::vector<Int> order (control[UMFPACK_FIXQ] > 0.0 ? system.unknowns () : 0);
     std::iota (order.begin (), order.end (), Int{0});
-    Interface::SYMBOLIC (n, n, offsets.data (), columns.data (), system.values.data (),
+    Interface::SYMBOLIC (n, n, offsets.data (), columns.data (), values,
                          order.empty () ? nullptr : order.data (), &handle, control.data (),
                          info.data ());
     const Handle<Interface::FREE_SYMBOLIC> symbolic (std::exchange (handle, nullptr));
     if (!accept (info, "symbolic analysis", solution))
       return;
-    Interface::NUMERIC (offsets.data (), columns.data (), system.values.data (), symbolic.get (),
-                        &handle, control.data (), info.data ());
+    Interface::NUMERIC (offsets.data (), columns.data (), values, symbolic.get (), &handle,
+                        control.data (), info.data ());
     numeric.reset (handle);
   }
   // UMFPACK leaves -1 for figures that it did not compute.

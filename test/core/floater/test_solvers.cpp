@@ -15,8 +15,6 @@
 
 namespace pcl::floater {
 namespace {
-using Row = std::vector<std::pair<int, double>>;
-
 constexpr Ordering ALL_ORDERINGS[] = {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS,
                                       Ordering::NATURAL, Ordering::REVERSE_CUTHILL_MCKEE};
 
@@ -73,42 +71,23 @@ squareSystem (int side, std::uint64_t seed, Weighting weighting = Weighting::MEA
                          loop, uv, std::vector<std::uint8_t> (points.size (), 1));
 }
 
+using Entries = std::vector<Eigen::Triplet<double>>;
+
 LinearSystem
-systemOf (std::vector<Row> rows)
+systemOf (const Entries& entries, const Eigen::MatrixX2d& rhs)
 {
   LinearSystem system;
-  for (Row& row : rows)
-    system.addRow (row);
-  system.rhs.setOnes (static_cast<Eigen::Index> (rows.size ()), 2);
+  system.rhs = rhs;
+  system.matrix.resize (rhs.rows (), rhs.rows ());
+  system.matrix.setFromTriplets (entries.begin (), entries.end ());
   return system;
-}
-
-// All entries of the matrix.
-Eigen::MatrixXd
-denseMatrix (const LinearSystem& system)
-{
-  const auto n = static_cast<Eigen::Index> (system.unknowns ());
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero (n, n);
-  for (std::size_t i = 0; i < system.unknowns (); ++i)
-    system.visitRow (i, [&] (std::size_t j, double value) {
-      dense (static_cast<Eigen::Index> (i), static_cast<Eigen::Index> (j)) = value;
-    });
-  return dense;
-}
-
-// The same system in a random order.
-LinearSystem
-shuffle (const LinearSystem& system, std::uint64_t seed)
-{
-  const std::vector<Index> order = samples::permutation (system.unknowns (), seed);
-  return permuteSystem (system, {order.begin (), order.end ()});
 }
 
 // Random entries and a dominant diagonal. The pattern is not symmetric.
 LinearSystem
 randomSystem (int n, RandomStream& random)
 {
-  LinearSystem system;
+  Entries all;
   for (int i = 0; i < n; ++i) {
     std::map<int, double> entries;
     double sum = 0.1;
@@ -116,11 +95,11 @@ randomSystem (int n, RandomStream& random)
       sum += std::abs (entries[static_cast<int> (random.below (static_cast<std::size_t> (n)))] =
                            2.0 * random.uniform () - 1.0);
     entries[i] = 2.0 * sum;
-    Row row (entries.begin (), entries.end ());
-    system.addRow (row);
+    for (const auto& [column, value] : entries)
+      all.emplace_back (i, column, value);
   }
-  system.rhs = Eigen::MatrixX2d::NullaryExpr (n, 2, [&] { return random.uniform () - 0.5; });
-  return system;
+  return systemOf (all,
+                   Eigen::MatrixX2d::NullaryExpr (n, 2, [&] { return random.uniform () - 0.5; }));
 }
 
 void
@@ -142,11 +121,8 @@ TEST (LinearSystem, WithTwoUnknowns)
   const LinearSystem system =
       assembleSystem (neighbors, weights, {0, 2, 5}, loop_uv, {1, 1, 1, 1, 0, 1});
   EXPECT_EQ (system.point_of_unknown, (std::vector<Index>{1, 3}));
-  EXPECT_EQ (system.unknown_of_point, (std::vector<Index>{NONE, 0, NONE, 1, NONE, NONE}));
-  EXPECT_EQ (system.row_offsets, (std::vector<int>{0, 2, 4}));
-  EXPECT_EQ (system.columns, (std::vector<int>{0, 1, 0, 1}));
   // The diagonal contains the weights of the loop, but not those of point 4.
-  EXPECT_EQ (system.values, (std::vector<double>{0.75, -0.5, -0.375, 0.75}));
+  EXPECT_EQ (Eigen::MatrixXd (system.matrix), (Eigen::Matrix2d{{0.75, -0.5}, {-0.375, 0.75}}));
   EXPECT_EQ (system.rhs, (Eigen::Matrix2d{{1.0, 2.0}, {-4.0, 4.0}}));
 }
 
@@ -163,8 +139,8 @@ TEST (LinearSystem, WithoutEquationsOrNeighborsOrWithTooManyEntries)
   EXPECT_EQ (assemble (0).unknowns (), 0U);
   EXPECT_EQ (assemble (0).nonzeros (), 0U);
   neighbors.offsets.push_back (6); // a point without neighbours
-  EXPECT_EQ (assemble (1).columns, std::vector<int>{0});
-  EXPECT_EQ (assemble (1).values, std::vector<double>{0.0});
+  EXPECT_EQ (assemble (1).nonzeros (), 1U);
+  EXPECT_EQ (assemble (1).matrix.coeff (0, 0), 0.0);
   neighbors.offsets = {0, 2, 4, 6, 8, 10}; // two that have each other
   neighbors.ids.insert (neighbors.ids.end (), {0, 4, 1, 3});
   EXPECT_EQ (assemble (4).nonzeros (), 4U);
@@ -176,7 +152,8 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
   RandomStream random (3);
   std::vector<LinearSystem> systems{
       squareSystem (14, 1), squareSystem (14, 1, Weighting::SHAPE_PRESERVING),
-      systemOf ({{{0, 1.0}}, {{1, 2.0}}, {{2, 4.0}}})}; // no unknown has a neighbour
+      systemOf ({{0, 0, 1.0}, {1, 1, 2.0}, {2, 2, 4.0}}, // no unknown has a neighbour
+                Eigen::MatrixX2d::Ones (3, 2))};
   for (const int n : {1, 2, 10, 300})
     systems.push_back (randomSystem (n, random));
   systems[5].rhs.col (0).setZero ();
@@ -187,7 +164,7 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
         const LinearSystem& system = systems[i];
         const Solution solution = solve (system, choice (solver, ordering), 1);
         ASSERT_FALSE (solution.problem) << solution.problem.message;
-        const Eigen::MatrixXd dense = denseMatrix (system);
+        const Eigen::MatrixXd dense (system.matrix);
         const Eigen::MatrixX2d expected = dense.partialPivLu ().solve (system.rhs);
         EXPECT_LT ((solution.uv - expected).cwiseAbs ().maxCoeff (), i < 2 ? 1e-12 : 1e-13);
         const Eigen::MatrixX2d rest = system.rhs - dense * solution.uv;
@@ -210,7 +187,12 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
 
 TEST (Solvers, UseTheOrderThatIsAskedFor)
 {
-  const LinearSystem system = shuffle (squareSystem (30, 2), 5);
+  LinearSystem system = squareSystem (30, 2);
+  const std::vector<Index> shuffled = samples::permutation (system.unknowns (), 5);
+  Eigen::PermutationMatrix<Eigen::Dynamic> order (system.matrix.rows ());
+  std::copy (shuffled.begin (), shuffled.end (), order.indices ().begin ());
+  system.matrix = SystemMatrix (system.matrix).twistedBy (order);
+  system.rhs = order * Eigen::MatrixX2d (system.rhs);
   for (const Solver solver : allSolvers ()) {
     if (isIterative (solver))
       continue;
@@ -234,16 +216,16 @@ TEST (Solvers, UseTheOrderThatIsAskedFor)
 TEST (Solvers, WithLongIndices)
 {
   constexpr int UNKNOWNS = 1000001, LENGTH = 4;
-  LinearSystem system;
-  system.rhs.resize (UNKNOWNS, 2);
+  Entries entries;
+  Eigen::MatrixX2d rhs (UNKNOWNS, 2);
   for (int i = 0; i < UNKNOWNS; ++i) {
-    Row row{{i, 1.0}};
+    entries.emplace_back (i, i, 1.0);
     if (i % LENGTH != 0)
-      row.emplace_back (i - 1, -0.5);
-    system.addRow (row);
-    system.rhs.row (i) << 0.5, i % LENGTH == 0 ? 1.0 : 0.0;
+      entries.emplace_back (i, i - 1, -0.5);
+    rhs.row (i) << 0.5, i % LENGTH == 0 ? 1.0 : 0.0;
   }
-  const Solution solution = solve (system, choice (Solver::UMFPACK, Ordering::AMD), 2);
+  const Solution solution =
+      solve (systemOf (entries, rhs), choice (Solver::UMFPACK, Ordering::AMD), 2);
   ASSERT_FALSE (solution.problem) << solution.problem.message;
   EXPECT_EQ (solution.residual, 0.0);
   for (int i = 0; i < UNKNOWNS; ++i) {
@@ -264,8 +246,7 @@ TEST (Solvers, SolveNothing)
 TEST (Solvers, RefuseWhatTheyCannotSolve)
 {
   LinearSystem without_weights = squareSystem (8, 4), infinite = without_weights;
-  for (int at = infinite.row_offsets[11]; at < infinite.row_offsets[12]; ++at)
-    without_weights.values[static_cast<std::size_t> (at)] = 0.0;
+  without_weights.matrix.row (11) *= 0.0;
   infinite.rhs (3, 1) = std::numeric_limits<double>::quiet_NaN ();
   for (const Solver solver : allSolvers ()) {
     SCOPED_TRACE (nameOf (solver));
@@ -276,7 +257,7 @@ TEST (Solvers, RefuseWhatTheyCannotSolve)
     expectFailure (solve (infinite, options, 1), RunStatus::INTERNAL_ERROR);
   }
   LinearSystem unsorted = squareSystem (8, 4);
-  std::swap (unsorted.columns[0], unsorted.columns[1]);
+  std::swap (unsorted.matrix.innerIndexPtr ()[0], unsorted.matrix.innerIndexPtr ()[1]);
   expectFailure (solve (unsorted, choice (Solver::UMFPACK), 1), RunStatus::INTERNAL_ERROR);
 }
 

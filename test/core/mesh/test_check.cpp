@@ -268,11 +268,12 @@ TEST (LoopReport, TellsDoubtfulDecisionsAndWarnsOfHolesTooDeepToBeFilled)
   const Points points = pointsAt (sheet (20).positions);
   const auto judged = [] (std::vector<Index> corners, double width, bool is_open,
                           const LoopJudgement& judgement) {
-    JudgedLoop one{{}, judgement};
-    one.loop.points = std::move (corners);
-    one.loop.width = width;
-    one.loop.spacing = 0.5;
-    one.loop.keep_open = is_open;
+    BoundaryLoop one;
+    one.judgement = judgement;
+    one.points = std::move (corners);
+    one.width = width;
+    one.spacing = 0.5;
+    one.keep_open = is_open;
     return one;
   };
   Surface surface;

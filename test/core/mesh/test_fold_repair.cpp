@@ -98,7 +98,7 @@ moveWhileItHelps (Sheets& sheets)
   for (bool moved = true; moved;) {
     moved = false;
     for (Index v = 0; v < sheets.positions.size (); ++v) {
-      mover.start ();
+      sheets.mesh.recordChanges ();
       moved |= mover.move (v, 16) < 0.0;
     }
   }
@@ -135,7 +135,7 @@ TEST (FoldRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
     EXPECT_NEAR (costOfMesh (mesh, sheets.cost) - costOfMesh (before, sheets.cost), change, 1e-6);
     expectConsistent (mesh);
     const bool is_changed = mesh.triangles != before.triangles;
-    mover.undo ();
+    mesh.undo (0);
     samples::expectSame (mesh, before);
     return is_changed;
   };
@@ -148,7 +148,7 @@ TEST (FoldRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
   for (Index v = 0; v < sheets.positions.size (); v += 7)
     for (const VertexMover::Place& place : mover.placesFor (v, 6)) {
       ASSERT_EQ (mesh.triangles, before.triangles) << "the search for places left a trace";
-      mover.start ();
+      mesh.recordChanges ();
       double change = mover.moveTo (v, place);
       for (Index q : sheets.neighbors.row (v))
         change += mover.move (q, 2);
@@ -156,7 +156,7 @@ TEST (FoldRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
     }
   EXPECT_GT (moved, 50U);
   for (Index first = 0; first + 3 * GRID_SIDE < SHEET_POINTS; first += 5) {
-    mover.start ();
+    mesh.recordChanges ();
     const Index next = first + GRID_SIDE; // in the row above
     double change = 0.0;
     if (mover.rebuild (
@@ -165,7 +165,7 @@ TEST (FoldRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
       rebuilt += isChangedAndUndone (change) ? 1 : 0;
       continue;
     }
-    mover.undo ();
+    mesh.undo (0);
     samples::expectSame (mesh, before);
   }
   EXPECT_GT (rebuilt, 5U);

@@ -53,9 +53,10 @@ policy (HolePolicy kind)
 
 // A loop of a length, of a component.
 BoundaryLoop
-loopOf (double length, Index component = 0)
+loopOf (double length, const LoopJudgement& judgement, Index component = 0)
 {
   BoundaryLoop loop;
+  loop.judgement = judgement;
   loop.points.resize (10);
   loop.length = length;
   loop.component = component;
@@ -65,10 +66,9 @@ loopOf (double length, Index component = 0)
 using Indices = std::vector<std::size_t>;
 
 Indices
-kept (std::vector<BoundaryLoop> loops, const std::vector<LoopJudgement>& judgements,
-      const HoleOptions& holes, double unit = 1.0)
+kept (std::vector<BoundaryLoop> loops, const HoleOptions& holes, double unit = 1.0)
 {
-  chooseOpenLoops (loops, judgements, 2, holes, unit);
+  chooseOpenLoops (loops, 2, holes, unit);
   Indices indices;
   for (std::size_t i = 0; i < loops.size (); ++i)
     if (loops[i].keep_open)
@@ -87,7 +87,7 @@ TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
     HoleOptions holes = policy (HolePolicy::BY_SIZE);
     holes.largest_hole = largest_hole;
     holes.unit = length_unit;
-    return kept (loops, std::vector<LoopJudgement> (loops.size ()), holes, unit);
+    return kept (loops, holes, unit);
   };
   EXPECT_EQ (keptAbove (14.0, LengthUnit::SPACINGS, 1.0), (Indices{7, 8}));
   EXPECT_EQ (keptAbove (14.0, LengthUnit::SPACINGS, 0.1), (Indices{7, 8}));
@@ -99,34 +99,33 @@ TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
 TEST (OpenLoops, PoliciesGoByTheOdds)
 {
   // Two boundaries, of which the shorter is surer, a longer gap, and a gap of another component.
-  const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (40.0), loopOf (90.0),
-                                           loopOf (8.0, 1)};
-  const std::vector<LoopJudgement> judgements = {
-      {5.0, 9.0, false}, {3.0, 40.0, false}, {-2.0, 20.0, false}, {-4.0, 8.0, false}};
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), (Indices{0, 1}));
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)), Indices{});
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)), (Indices{1, 3}));
+  const std::vector<BoundaryLoop> loops = {
+      loopOf (30.0, {5.0, 9.0, false}), loopOf (40.0, {3.0, 40.0, false}),
+      loopOf (90.0, {-2.0, 20.0, false}), loopOf (8.0, {-4.0, 8.0, false}, 1)};
+  EXPECT_EQ (kept (loops, policy (HolePolicy::AUTO)), (Indices{0, 1}));
+  EXPECT_EQ (kept (loops, policy (HolePolicy::CLOSE_ALL)), Indices{});
+  EXPECT_EQ (kept (loops, policy (HolePolicy::KEEP_LARGEST)), (Indices{1, 3}));
   HoleOptions count = policy (HolePolicy::KEEP_COUNT);
   const std::vector<Indices> by_count = {{}, {0}, {0, 1}, {0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2, 3}};
   for (int i = 0; i < 6; ++i) {
     count.kept_loops = i;
-    EXPECT_EQ (kept (loops, judgements, count), by_count[static_cast<std::size_t> (i)]);
+    EXPECT_EQ (kept (loops, count), by_count[static_cast<std::size_t> (i)]);
   }
 }
 
 TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
 {
-  const std::vector<BoundaryLoop> loops = {loopOf (30.0), loopOf (90.0), loopOf (40.0)};
-  std::vector<LoopJudgement> judgements = {
-      {-1.0, 10.0, false}, {-2.0, 30.0, false}, {-3.0, 20.0, false}};
+  std::vector<BoundaryLoop> loops = {loopOf (30.0, {-1.0, 10.0, false}),
+                                     loopOf (90.0, {-2.0, 30.0, false}),
+                                     loopOf (40.0, {-3.0, 20.0, false})};
   HoleOptions count = policy (HolePolicy::KEEP_COUNT);
   count.kept_loops = 2;
-  EXPECT_EQ (kept (loops, judgements, count), (Indices{1, 2}));
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::KEEP_LARGEST)), Indices{1});
+  EXPECT_EQ (kept (loops, count), (Indices{1, 2}));
+  EXPECT_EQ (kept (loops, policy (HolePolicy::KEEP_LARGEST)), Indices{1});
   // A gap too deep to be filled stays open, unless the policy says otherwise.
-  judgements[0].is_too_deep = true;
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::AUTO)), Indices{0});
-  EXPECT_EQ (kept (loops, judgements, policy (HolePolicy::CLOSE_ALL)), Indices{});
+  loops[0].judgement.is_too_deep = true;
+  EXPECT_EQ (kept (loops, policy (HolePolicy::AUTO)), Indices{0});
+  EXPECT_EQ (kept (loops, policy (HolePolicy::CLOSE_ALL)), Indices{});
 }
 
 TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)
@@ -177,16 +176,16 @@ struct TriangularSheet
     });
   }
 
-  std::vector<LoopEvidence> evidence () const
+  std::vector<LoopEvidence> evidence ()
   {
-    return findEvidence (mesh, loops, positions, neighbors, normals, {}, 1);
+    return judgeLoops (mesh, loops, positions, neighbors, normals, {}, 1);
   }
 };
 
 TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
 {
   // The six neighbours of the missing point: a regular hexagon of side 1.
-  const TriangularSheet sheet (10, 0.5);
+  TriangularSheet sheet (10, 0.5);
   const LoopEvidence hole = sheet.evidence ()[0], border = sheet.evidence ()[1];
   ASSERT_EQ (sheet.loops[0].points.size (), 6U);
   const double area = 1.5 * std::sqrt (3.0);

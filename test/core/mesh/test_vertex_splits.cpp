@@ -23,7 +23,7 @@ expectSplits (Mesh mesh, const std::vector<Eigen::Vector3d>& points, const Split
     added.push_back (static_cast<Index> (mesh.positions.size ()));
     mesh.positions.push_back (p);
   }
-  EXPECT_EQ (splitVertices (result, mesh.positions, added, limits, 1).points, points.size ());
+  EXPECT_EQ (splitVertices (result, mesh.positions, added, limits, 1), points.size ());
   expectConsistent (result);
   const samples::Topology after = samples::topologyOf (result.triangles);
   EXPECT_EQ (after.vertices, before.vertices + points.size ());
