@@ -47,8 +47,7 @@ exceptLoop (std::vector<Index> found, const Points& points, const std::vector<In
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search)
 {
-  // Blocks save no memory here: the solver of a disc needs far more.
-  return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
+  return {options.neighbors, search};
 }
 
 void
@@ -132,9 +131,7 @@ starSettings (const Request& request)
   StarSettings settings;
   settings.filter_sheets = options.filter_sheets;
   settings.with_offsets = asksForDisc (options);
-  const Neighborhood kind = options.neighbors.kind;
-  settings.reach_beyond =
-      !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
+  settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
   settings.limits = request.limits.sheets;
   settings.reach = request.limits.reach;
   return settings;

@@ -16,6 +16,8 @@
 #include <vector>
 
 namespace pcl::floater {
+namespace {
+// O(n); one bit per point if the indices are not ascending.
 Problem
 checkInput (const Input& input)
 {
@@ -47,6 +49,8 @@ checkInput (const Input& input)
   }
   return {};
 }
+
+} // namespace
 
 bool
 isSensorKnown (const std::array<double, 3>& sensor_origin)
@@ -98,8 +102,6 @@ leaveOutInvalid (Input& input, const MayGo& mayGo, const InvalidPointLimits& lim
   });
 }
 
-} // namespace
-
 Problem
 cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
             Report& report)
@@ -116,7 +118,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};
   const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
-  std::vector<Index> rows, outliers;
+  std::vector<Index> rows;
   for (const Index row : found.unbearable) {
     if (!are_few || !mayGo (row))
       return tooFarAway (input.cloud_index[row], input.positions[row]);
@@ -124,14 +126,14 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   }
   std::copy_if (found.isolated.begin (), found.isolated.end (), std::back_inserter (rows), mayGo);
   std::sort (rows.begin (), rows.end ());
-  for (const Index row : rows)
-    outliers.push_back (input.cloud_index[row]);
-  std::sort (outliers.begin (), outliers.end ());
+  const std::vector<Index> outliers = valuesAt (input.cloud_index, rows);
   eraseRows (input.positions, rows);
   eraseRows (input.cloud_index, rows);
   reportOutliers (outliers, FindingId::GROSS_OUTLIERS, report);
   return {};
 }
+
+} // namespace
 
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report)

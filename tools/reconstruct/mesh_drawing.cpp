@@ -218,8 +218,7 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   const RunContext run (std::max (line.options.threads, 0));
   drawing.spacing = localSpacing (
       drawing.positions,
-      findNearestNeighbors (drawing.positions, Rows::all (drawing.positions.size ()), NEAREST,
-                            static_cast<std::size_t> (line.options.blocks), run),
+      findNearestNeighbors (drawing.positions, Rows::all (drawing.positions.size ()), NEAREST, run),
       run);
   std::vector<float> spacing = drawing.spacing;
   drawing.median_spacing = median (spacing);
