@@ -4,14 +4,12 @@
 
 #include "input/input.h"
 #include "local/scatter.h"
-#include "points/noise.h"
 #include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace pcl::floater {

@@ -6,12 +6,10 @@
 #include "reconstruct.h"
 
 #include "cloud_geometry.h"
-#include "core/problem.h"
 #include "finished_mesh.h"
 #include "input/input.h"
 #include "local/stars.h"
 #include "options/check_options.h"
-#include "options/stage_limits.h"
 #include "reconstruct_view.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
@@ -20,7 +18,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>

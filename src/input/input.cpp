@@ -3,9 +3,7 @@
 #include "input/input.h"
 
 #include "core/order_statistics.h"
-#include "core/types.h"
 #include "options/check_options.h"
-#include "options/stage_limits.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
@@ -13,7 +11,6 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <vector>
 
 namespace pcl::floater {
 namespace {

@@ -47,18 +47,22 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
 }
 
 std::vector<RayPatch>
-findPatches (const std::vector<Eigen::Vector3d>& positions, std::size_t count, std::size_t size,
-             const RunContext& run)
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count, std::size_t size)
 {
-  const std::size_t n = positions.size ();
-  const KdTree tree (positions, run, PointOrder::ALONG_CURVE);
-  std::vector<RayPatch> patches (std::min (count, n));
-  parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    std::vector<Neighbor> found;
-    tree.nearest (positions[(2 * k + 1) * n / (2 * patches.size ())], size, found);
-    for (const Neighbor& neighbor : found)
-      patches[k].push_back (neighbor.point);
-  });
+  std::vector<RayPatch> patches (count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
+    RayPatch& patch = patches[k];
+    patch.assign (1, static_cast<Index> (seed));
+    for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
+      for (const Index q : neighbors.row (patch[i]))
+        if (patch.size () < size && std::find (patch.begin (), patch.end (), q) == patch.end ())
+          patch.push_back (q);
+    const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
+    std::stable_sort (patch.begin (), patch.end (),
+                      [&] (Index a, Index b) { return distance (a) < distance (b); });
+  }
   return patches;
 }
 
@@ -66,12 +70,21 @@ std::vector<RayPatch>
 findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run)
 {
-  std::vector<Eigen::Vector3d> directions (positions.size ());
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
+  const std::size_t n = positions.size ();
+  std::vector<Eigen::Vector3d> directions (n);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p)
       directions[p] = rayTo (positions[p], viewpoint).direction;
   });
-  return findPatches (directions, limits.patches, limits.patch_points, run);
+  const KdTree tree (directions, run, PointOrder::ALONG_CURVE);
+  std::vector<RayPatch> patches (std::min (limits.patches, n));
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    std::vector<Neighbor> found;
+    tree.nearest (directions[(2 * k + 1) * n / (2 * patches.size ())], limits.patch_points, found);
+    for (const Neighbor& neighbor : found)
+      patches[k].push_back (neighbor.point);
+  });
+  return patches;
 }
 
 namespace {

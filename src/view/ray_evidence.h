@@ -26,15 +26,13 @@ struct RowEvidence
 RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count);
 
-/// Patches of near points around points that are spread evenly over their order. Parallel rays to a
-/// patch are near each other for any direction. O(n).
-/// \param positions mostly near their predecessors
-/// \param count     of patches
-/// \param size      points of a patch; fewer if there are no more
+/// Patches around points that are spread evenly over their order, over their neighbours: also across
+/// rows that are far apart. Parallel rays to a patch are near each other for any direction.
+/// \param size points of a patch; fewer if there are no more around
 /// \return the points of each patch, sorted by distance to the first one
 std::vector<RayPatch>
-findPatches (const std::vector<Eigen::Vector3d>& positions, std::size_t count, std::size_t size,
-             const RunContext& run);
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count, std::size_t size);
 
 struct EvidenceLimits
 {
@@ -107,7 +105,7 @@ struct RayEvidence
   }
 };
 
-/// The same of rays.
+/// Patches of near rays around points that are spread evenly over their order. O(n).
 std::vector<RayPatch>
 findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run);

@@ -17,11 +17,11 @@ namespace {
 class ViewpointSearch
 {
 public:
-  ViewpointSearch (const Points& points, const std::vector<AreaSample>& samples,
-                   const SearchLimits& limits, const EvidenceLimits& evidence, bool may_be_far,
-                   const RunContext& run)
-      : positions_ (points.positions), limits_ (limits), evidence_ (evidence), run_ (run),
-        samples_ (samples), may_be_far_ (may_be_far)
+  ViewpointSearch (const Points& points, const CsrLists& neighbors,
+                   const std::vector<AreaSample>& samples, const SearchLimits& limits,
+                   const EvidenceLimits& evidence, bool may_be_far, const RunContext& run)
+      : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
+        evidence_ (evidence), run_ (run), samples_ (samples), may_be_far_ (may_be_far)
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
@@ -58,8 +58,8 @@ public:
     }
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
-    const std::vector<RayPatch> patches =
-        findPatches (positions_, std::min (coarse_.patches, FEW), coarse_.patch_points, run_);
+    const std::vector<RayPatch> patches = findPointPatches (
+        positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points);
     // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
     // least cost was .009 to .053 of the median.
     parallelTasks (run_, count, [&] (std::size_t k) {
@@ -329,6 +329,7 @@ private:
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
+  const CsrLists& neighbors_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
   EvidenceLimits coarse_; // fewer patches, during the search
@@ -351,7 +352,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
   if (filled.patches < FEWEST_PATCHES)
     return {};
-  const ViewpointSearch search (points, samples, limits, filled, may_be_far, run);
+  const ViewpointSearch search (points, neighbors, samples, limits, filled, may_be_far, run);
   if (!is_even) {
     const RowEvidence rows = findRows (points, neighbors, limits.samples);
     if (rows.share > limits.rows && !rows.are_straight)
