@@ -4,14 +4,12 @@
 
 #include "input/input.h"
 #include "local/scatter.h"
-#include "points/noise.h"
 #include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace pcl::floater {
@@ -47,8 +45,7 @@ exceptLoop (std::vector<Index> found, const Points& points, const std::vector<In
 NeighborSettings
 neighborSettings (const Options& options, NeighborSearch* search)
 {
-  // Blocks save no memory here: the solver of a disc needs far more.
-  return {options.neighbors, asksForDisc (options) ? 1 : options.blocks, search};
+  return {options.neighbors, search};
 }
 
 void
@@ -132,9 +129,7 @@ starSettings (const Request& request)
   StarSettings settings;
   settings.filter_sheets = options.filter_sheets;
   settings.with_offsets = asksForDisc (options);
-  const Neighborhood kind = options.neighbors.kind;
-  settings.reach_beyond =
-      !asksForDisc (options) && kind != Neighborhood::BALL && kind != Neighborhood::BALL_DELAUNAY;
+  settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
   settings.limits = request.limits.sheets;
   settings.reach = request.limits.reach;
   return settings;

@@ -5,7 +5,6 @@
 #include "cloud_geometry.h"
 #include "mesh/flips.h"
 #include "mesh/self_intersection_removal.h"
-#include "mesh/trimming.h"
 #include "mesh/vertex_splits.h"
 #include "report/report_mesh.h"
 #include "report/verdict.h"

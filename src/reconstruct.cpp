@@ -6,12 +6,10 @@
 #include "reconstruct.h"
 
 #include "cloud_geometry.h"
-#include "core/problem.h"
 #include "finished_mesh.h"
 #include "input/input.h"
 #include "local/stars.h"
 #include "options/check_options.h"
-#include "options/stage_limits.h"
 #include "reconstruct_view.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
@@ -20,7 +18,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -245,8 +242,7 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
     return problem;
 
   if (mayBeSeen (options))
-    if (const std::optional<Viewpoint> viewpoint =
-            knownViewpoint (points, input.sensor_origin, request))
+    if (const std::optional<Viewpoint> viewpoint = knownViewpoint (points, request))
       if (const std::optional<Problem> problem =
               reconstructKnownView (points, *viewpoint, request, result))
         return *problem;
@@ -305,7 +301,6 @@ reconstruct (Input input, const Options& options)
 Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
 {
-  Input input;
   Problem problem;
   try {
     if (positions.empty ())
@@ -313,22 +308,22 @@ reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
     else if (positions.size () > std::numeric_limits<Index>::max ())
       problem = {RunStatus::OUT_OF_MEMORY,
                  "the cloud has more than 4294967295 points; reconstruct parts of it"};
-    else
+    else {
+      Input input;
+      input.cloud_size = positions.size ();
       input.cloud_index.resize (positions.size ());
+      std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
+      input.positions = std::move (positions);
+      return reconstruct (std::move (input), options);
+    }
   }
   catch (...) {
     problem = problemOfException ();
   }
-  if (problem) {
-    Result failed;
-    failed.report.status = problem.status;
-    failed.report.message = std::move (problem.message);
-    return failed;
-  }
-  std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
-  input.cloud_size = positions.size ();
-  input.positions = std::move (positions);
-  return reconstruct (std::move (input), options);
+  Result failed;
+  failed.report.status = problem.status;
+  failed.report.message = std::move (problem.message);
+  return failed;
 }
 
 } // namespace pcl::floater

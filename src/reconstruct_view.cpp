@@ -9,9 +9,7 @@
 #include "mesh/check.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
-#include "view/ray_evidence.h"
 #include "view/view_method.h"
-#include "view/viewpoint_search.h"
 
 #include <algorithm>
 #include <limits>
@@ -19,18 +17,17 @@
 
 namespace pcl::floater {
 std::optional<Viewpoint>
-knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
-                const Request& request)
+knownViewpoint (const Points& points, const Request& request)
 {
   const ViewOptions& options = request.options.view;
   const bool is_given = options.use == ViewUse::GIVEN;
-  const std::array<double, 3>& place = is_given ? options.viewpoint : sensor_origin;
+  const std::array<double, 3>& place = is_given ? options.viewpoint : request.sensor_origin;
   const Viewpoint viewpoint{
       (Eigen::Map<const Eigen::Vector3d> (place.data ()) - points.centre) / points.scale, false};
   const EvidenceLimits& evidence = request.limits.view.evidence;
   if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
     return viewpoint;
-  if (isSensorKnown (sensor_origin) &&
+  if (isSensorKnown (request.sensor_origin) &&
       mayBeSeenFrom (points.positions, viewpoint, evidence, request.run))
     return Viewpoint{viewpoint.place, false, true};
   return {};
@@ -93,11 +90,8 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
 {
   const Options& options = request.options;
   const Limits& limits = request.limits;
-  const ViewSettings settings{
-      options.holes,         options.flip_edges,           options.remove_outliers,
-      limits.view,           limits.surface.open_loops,    limits.surface.hole_filling,
-      limits.surface.finish, facingHints (points, request)};
-  ViewSurface surface = makeViewSurface (points, viewpoint, settings, request.run);
+  ViewSurface surface = makeViewSurface (points, viewpoint, {options, limits.view, limits.surface},
+                                         facingHints (points, request), request.run);
   LocalGeometry geometry;
   geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
@@ -128,8 +122,10 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   if (is_doubtful && options.view.use == ViewUse::GIVEN)
     addFinding (report, FindingId::DOUBTFUL_VIEWPOINT, vertices, {}, found.unused.size (),
                 vertices.size ());
-  if (options.remove_outliers)
-    reportOutliersOfView (vertices, found.unused, report);
+  if (options.remove_outliers) { // also those alone between rays
+    report.statistics.working_points = vertices.size () - found.unused.size ();
+    reportOutliers (valuesAt (vertices.cloud_index, found.unused), FindingId::OUTLIERS, report);
+  }
   reportCoordinateGrid (
       vertices, findCoordinateGrid (vertices, geometry.meshSpacing (), request.run), report);
   return useMesh (std::move (surface.mesh), surface.finish, std::move (found), vertices, geometry,

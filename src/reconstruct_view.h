@@ -10,14 +10,12 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <array>
 #include <optional>
 
 namespace pcl::floater {
 /// The given viewpoint, or the origin of the sensor if the points are evenly spaced from there.
 std::optional<Viewpoint>
-knownViewpoint (const Points& points, const std::array<double, 3>& sensor_origin,
-                const Request& request);
+knownViewpoint (const Points& points, const Request& request);
 
 /// Reconstructs one scan from a viewpoint.
 /// \return nothing if too many points are in no triangle of the view and the viewpoint was not

@@ -16,17 +16,6 @@ namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
 constexpr double DEGREE = PI / 180.0; ///< in radians
 
-/// The positions of some of the points.
-inline std::vector<Eigen::Vector3d>
-positionsOf (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& points)
-{
-  std::vector<Eigen::Vector3d> some;
-  some.reserve (points.size ());
-  for (const Index p : points)
-    some.push_back (positions[p]);
-  return some;
-}
-
 /// Length of a closed loop of points in space or in the plane.
 template <typename Vector>
 double

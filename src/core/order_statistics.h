@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranks in unsorted lists, sorting, and erasing.
+// Ranks in unsorted lists, sorting, selecting and erasing.
 #pragma once
 
 #include <algorithm>
@@ -53,6 +53,18 @@ quantile (std::vector<Value>& values, double share)
 {
   const auto rank = static_cast<std::size_t> (share * static_cast<double> (values.size ()));
   return valueAtRank (values, std::min (rank, values.size () - 1));
+}
+
+/// The values of some rows, in their order.
+template <typename Value, typename Rows>
+std::vector<Value>
+valuesAt (const std::vector<Value>& values, const Rows& rows)
+{
+  std::vector<Value> some;
+  some.reserve (rows.size ());
+  for (const auto row : rows)
+    some.push_back (values[row]);
+  return some;
 }
 
 /// Erases the values of some rows. O(n).

@@ -3,17 +3,18 @@
 // The run as a stage uses it: threads, clock, progress, cancellation.
 #pragma once
 
-#include "core/helper_threads.h"
-
 #include <pcl/surface/floater/options.h>
 #include <pcl/surface/floater/report.h>
 
 #include <atomic>
 #include <cfenv>
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <functional>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 namespace pcl::floater {
 /// Unwinds a cancelled run. Not a std::exception, so that no stage handles it as a failure.
@@ -41,6 +42,31 @@ public:
 
 private:
   std::fenv_t before_{};
+};
+
+/// Threads that are kept between loops: a run has dozens of loops, and starting a thread takes as
+/// long as reading some thousand points. Thread-safe.
+class HelperThreads
+{
+public:
+  using Work = std::function<void ()>; // must not throw
+
+  ~HelperThreads ();
+
+  /// Gives work to an idle thread or to a new one. It is never queued behind other work, so work
+  /// may wait for work that it starts.
+  /// \throws std::exception if no thread can be started
+  void start (Work work);
+
+private:
+  void help ();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Work> begun_; // for which threads were woken or started
+  std::size_t waiting_ = 0; // threads without work, less those that were woken
+  bool is_ending_ = false;
+  std::vector<std::thread> threads_;
 };
 
 /// Clock and callbacks of one run. Measures wall time by stage, reports progress and polls for

@@ -207,7 +207,7 @@ layOut (const CollapsedRegion& region, const PlaneDisc& around, Surroundings& wi
     disc.points.push_back (in_cloud);
     normals.push_back (with.normals[in_cloud]);
   }
-  disc.positions = positionsOf (with.positions, disc.points);
+  disc.positions = valuesAt (with.positions, disc.points);
   for (const Index p : region.loop)
     disc.loop.push_back (with.number[around.points[p]]);
   CsrLists nearest;

@@ -3,9 +3,7 @@
 #include "input/input.h"
 
 #include "core/order_statistics.h"
-#include "core/types.h"
 #include "options/check_options.h"
-#include "options/stage_limits.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
@@ -13,9 +11,10 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <vector>
 
 namespace pcl::floater {
+namespace {
+// O(n); one bit per point if the indices are not ascending.
 Problem
 checkInput (const Input& input)
 {
@@ -47,6 +46,8 @@ checkInput (const Input& input)
   }
   return {};
 }
+
+} // namespace
 
 bool
 isSensorKnown (const std::array<double, 3>& sensor_origin)
@@ -98,8 +99,6 @@ leaveOutInvalid (Input& input, const MayGo& mayGo, const InvalidPointLimits& lim
   });
 }
 
-} // namespace
-
 Problem
 cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
             Report& report)
@@ -116,7 +115,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};
   const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
-  std::vector<Index> rows, outliers;
+  std::vector<Index> rows;
   for (const Index row : found.unbearable) {
     if (!are_few || !mayGo (row))
       return tooFarAway (input.cloud_index[row], input.positions[row]);
@@ -124,14 +123,14 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   }
   std::copy_if (found.isolated.begin (), found.isolated.end (), std::back_inserter (rows), mayGo);
   std::sort (rows.begin (), rows.end ());
-  for (const Index row : rows)
-    outliers.push_back (input.cloud_index[row]);
-  std::sort (outliers.begin (), outliers.end ());
+  const std::vector<Index> outliers = valuesAt (input.cloud_index, rows);
   eraseRows (input.positions, rows);
   eraseRows (input.cloud_index, rows);
   reportOutliers (outliers, FindingId::GROSS_OUTLIERS, report);
   return {};
 }
+
+} // namespace
 
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report)

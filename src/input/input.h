@@ -11,11 +11,6 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 namespace pcl::floater {
-/// INVALID_INDICES unless there is one cloud index for each position, each below the size of the
-/// cloud and given once. O(n); one bit per point if they are not ascending.
-Problem
-checkInput (const Input& input);
-
 /// A sensor position of (0, 0, 0) means: unknown.
 bool
 isSensorKnown (const std::array<double, 3>& sensor_origin);
@@ -25,15 +20,12 @@ isSensorKnown (const std::array<double, 3>& sensor_origin);
 Problem
 checkFacing (const Input& input, const Options& options);
 
-/// Removes and reports gross outliers, if outliers are to be left out, and makes points that stand
-/// for no measurement not finite. Points of the user's loop are kept.
-/// \return DEGENERATE if a remaining point is too far from the others for double precision
-Problem
-cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
-            Report& report);
-
-/// First step of a run: removes gross outliers and makes the working set. Frees each array of the
-/// input after reading it.
+/// First step of a run: checks input and options, removes and reports gross outliers, if outliers
+/// are to be left out, makes points that stand for no measurement not finite, and makes the working
+/// set. Points of the user's loop are kept. Frees each array of the input after reading it.
+/// \return INVALID_INDICES unless there is one cloud index for each position, each below the size of
+///     the cloud and given once; DEGENERATE if a remaining point is too far from the others for
+///     double precision
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report);
 

@@ -180,7 +180,7 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
   const Neighborhood kind = options.neighbors.kind;
   const Solver solver = options.disc.solver.method;
   const bool is_disc = report.topology == Topology::DISC;
-  const bool in_balls = kind == Neighborhood::BALL || kind == Neighborhood::BALL_DELAUNAY;
+  const bool in_balls = isInBalls (kind);
   const auto isOneOf = [use] (std::initializer_list<UsedFor> uses) {
     return std::find (uses.begin (), uses.end (), use) != uses.end ();
   };

@@ -156,8 +156,7 @@ visitOptions (AnyOptions& options, Visitor&& visit)
                    "threads, 0: one for each core; the result is the same", "j"},
          options.threads, NumberRange{0, NO_LIMIT});
   visit (OptionRow{"blocks", GENERAL, "setNumberOfBlocks", UsedFor::ALL,
-                   "blocks in which the nearest neighbours are searched, 0: chosen by the number "
-                   "of points; the result is the same"},
+                   "without effect: the nearest neighbours are searched at once"},
          options.blocks, NumberRange{0, NO_LIMIT});
   visit (OptionRow{"method", KIND, "setDiscOptions (DiscOptions::tw385 ())", UsedFor::ALL,
                    "tw385: a disc by the method of that report and nothing else: no outliers, "

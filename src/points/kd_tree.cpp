@@ -82,36 +82,9 @@ KdTree::build (Index first, Index last, const RunContext& run, PointOrder order,
     nodes[self].box = nodes[self + 1].box.merged (nodes[nodes[self].right].box);
 }
 
-// Nodes exactly as far as the worst neighbour are visited: they may contain a point of the same
-// distance and smaller index.
-template <typename Visit>
-void
-KdTree::search (Index node, const Eigen::Vector3d& query, Visit& visit) const
-{
-  const Node& here = nodes_[node];
-  if (here.right == NONE) {
-    for (Index i = here.first; i < here.last; ++i)
-      visit.add ({(items_[i].position - query).squaredNorm (), items_[i].point});
-    return;
-  }
-  constexpr double ROUNDED = 1.0 - 1e-12; // leaves room for the rounding of a sum of squares
-  const double left = ROUNDED * nodes_[node + 1].sqrDistance (query);
-  const double right = ROUNDED * nodes_[here.right].sqrDistance (query);
-  const bool left_first = left != right ? left < right
-                                        : nodes_[node + 1].sqrDistanceOfCentre (query) <=
-                                              nodes_[here.right].sqrDistanceOfCentre (query);
-  if ((left_first ? left : right) <= visit.reach ())
-    search (left_first ? node + 1 : here.right, query, visit);
-  if ((left_first ? right : left) <= visit.reach ())
-    search (left_first ? here.right : node + 1, query, visit);
-}
-
 void
 KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const
 {
-  result.clear ();
-  if (nodes_.empty () || k == 0)
-    return;
   Nearest visit (result, std::min (k, items_.size ()));
   search (0, query, visit);
   visit.end ();
@@ -128,15 +101,14 @@ KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
     std::size_t most;
 
     double reach () const { return points.size () <= most ? sqr_radius : -1.0; }
-    void add (const Neighbor& candidate)
+    bool skips (const Node&) const { return false; }
+    void add (const Neighbor& candidate, const Eigen::Vector3d& /*position*/)
     {
       if (candidate.sqr_distance <= sqr_radius)
         points.push_back (candidate.point);
     }
   };
   points.clear ();
-  if (nodes_.empty ())
-    return true;
   Collect visit{points, radius * radius, most};
   search (0, query, visit);
   return points.size () <= most;
@@ -250,16 +222,9 @@ SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t firs
   if (!tree_.collect (centre_, radius, MOST_POINTS * k_, ball_))
     return last;
   radius_ = radius;
-  x_.resize (ball_.size ());
-  y_.resize (ball_.size ());
-  z_.resize (ball_.size ());
-  sqr_distances_.resize (ball_.size ());
-  for (std::size_t i = 0; i < ball_.size (); ++i) {
-    const Eigen::Vector3d& position = positions_[ball_[i]];
-    x_[i] = position.x ();
-    y_[i] = position.y ();
-    z_[i] = position.z ();
-  }
+  places_.resize (static_cast<Eigen::Index> (ball_.size ()), 3);
+  for (std::size_t i = 0; i < ball_.size (); ++i)
+    places_.row (static_cast<Eigen::Index> (i)) = positions_[ball_[i]].array ().transpose ();
   return last;
 }
 
@@ -284,19 +249,18 @@ SequentialSearch::searchBall (const Eigen::Vector3d& query, double reach)
   if (!(reach > SHORTEST))
     return false;
   const std::size_t count = ball_.size ();
-  for (std::size_t i = 0; i < count; ++i) {
-    // The same sum as in the tree: the order of neighbours depends on the last bit.
-    const double x = x_[i] - query.x (), y = y_[i] - query.y (), z = z_[i] - query.z ();
-    sqr_distances_[i] = x * x + y * y + z * z;
-  }
+  // The same sum as in the tree: the order of neighbours depends on the last bit.
+  sqr_distances_ = (places_.col (0) - query.x ()).square () +
+                   (places_.col (1) - query.y ()).square () +
+                   (places_.col (2) - query.z ()).square ();
   near_.resize (count + 1);
   // The last neighbour is mostly about as far as for the previous query.
   for (const double within : {std::min (reach, EXPECTED * last_reach_), reach}) {
     const double sqr_reach = within * within;
     std::size_t near = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      near_[near] = {sqr_distances_[i], ball_[i]};
-      near += sqr_distances_[i] <= sqr_reach ? 1 : 0;
+      near_[near] = {sqr_distances_[static_cast<Eigen::Index> (i)], ball_[i]};
+      near += near_[near].sqr_distance <= sqr_reach ? 1 : 0;
     }
     if (near < k_)
       continue;

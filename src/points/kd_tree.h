@@ -64,15 +64,6 @@ public:
       watch_->looked (centre, radius);
   }
 
-  /// Reports the ball of a search for the k nearest points.
-  void lookedForNearest (const Eigen::Vector3d& centre, std::size_t k,
-                         const std::vector<Neighbor>& found) const
-  {
-    if (watch_ != nullptr)
-      watch_->looked (centre,
-                      found.size () == k ? std::sqrt (found.back ().sqr_distance) : EVERYWHERE);
-  }
-
   /// A radius beyond all points of a working set.
   static constexpr double EVERYWHERE = 1e100;
 
@@ -129,20 +120,20 @@ private:
     Eigen::Vector3d position;
     Index point;
   };
-  // The nearest points found so far, at most k within the reach. May hold more candidates until end
-  // () is called.
+  // Visitor of a search: the nearest points found so far, at most k within the reach.
   class Nearest
   {
   public:
     Nearest (std::vector<Neighbor>& found, std::size_t k,
              double sqr_radius = std::numeric_limits<double>::infinity ())
-        : found_ (found), k_ (k), sqr_reach_ (sqr_radius)
+        : found_ (found), k_ (k), sqr_reach_ (k > 0 ? sqr_radius : -1.0)
     {
       found.resize (k);
     }
 
     double reach () const { return sqr_reach_; }
-    void add (const Neighbor& candidate)
+    bool skips (const Node&) const { return false; }
+    void add (const Neighbor& candidate, const Eigen::Vector3d& /*position*/)
     {
       if (candidate.sqr_distance > sqr_reach_)
         return;
@@ -168,9 +159,6 @@ private:
 
   template <typename Visit>
   void search (Index node, const Eigen::Vector3d& query, Visit& visit) const;
-  template <typename Accept, typename Skip>
-  void searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
-                 Accept& accept, const Skip& skip, Nearest& nearest) const;
   void build (Index first, Index last, const RunContext& run, PointOrder order,
               std::vector<Node>& nodes);
 
@@ -179,47 +167,63 @@ private:
   SearchWatch* watch_ = nullptr;
 };
 
+// Nodes exactly as far as the worst neighbour are visited: they may contain a point of the same
+// distance and smaller index.
+template <typename Visit>
+void
+KdTree::search (Index node, const Eigen::Vector3d& query, Visit& visit) const
+{
+  if (node >= nodes_.size () || visit.skips (nodes_[node]))
+    return;
+  const Node& here = nodes_[node];
+  if (here.right == NONE) {
+    for (Index i = here.first; i < here.last; ++i)
+      visit.add ({(items_[i].position - query).squaredNorm (), items_[i].point},
+                 items_[i].position);
+    return;
+  }
+  constexpr double ROUNDED = 1.0 - 1e-12; // leaves room for the rounding of a sum of squares
+  const double left = ROUNDED * nodes_[node + 1].sqrDistance (query);
+  const double right = ROUNDED * nodes_[here.right].sqrDistance (query);
+  const bool left_first = left != right ? left < right
+                                        : nodes_[node + 1].sqrDistanceOfCentre (query) <=
+                                              nodes_[here.right].sqrDistanceOfCentre (query);
+  if ((left_first ? left : right) <= visit.reach ())
+    search (left_first ? node + 1 : here.right, query, visit);
+  if ((left_first ? right : left) <= visit.reach ())
+    search (left_first ? here.right : node + 1, query, visit);
+}
+
 template <typename Accept, typename Skip>
 void
 KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
                    std::size_t k, Accept&& accept, std::vector<Neighbor>& result,
                    const Skip& skip) const
 {
-  result.clear ();
-  if (nodes_.empty () || k == 0)
-    return;
-  Nearest nearest (result, std::min (k, items_.size ()), radius * radius);
-  searchIf (0, query, ahead, accept, skip, nearest);
-  nearest.end ();
-}
+  struct Accepted
+  {
+    Nearest nearest;
+    const Eigen::Vector3d &query, &ahead;
+    Accept& accept;
+    const Skip& skip;
 
-template <typename Accept, typename Skip>
-void
-KdTree::searchIf (Index node, const Eigen::Vector3d& query, const Eigen::Vector3d& ahead,
-                  Accept& accept, const Skip& skip, Nearest& nearest) const
-{
-  const Node& here = nodes_[node];
-  if (here.box.squaredExteriorDistance (query) > nearest.reach () || skip (here.first, here.last))
-    return;
-  double farthest_ahead = 0.0;
-  for (int i = 0; i < 3; ++i)
-    farthest_ahead +=
-        ahead[i] * ((ahead[i] < 0.0 ? here.box.min ()[i] : here.box.max ()[i]) - query[i]);
-  if (farthest_ahead < 0.0)
-    return;
-  if (here.right == NONE) {
-    for (Index i = here.first; i < here.last; ++i) {
-      const Neighbor neighbor{(items_[i].position - query).squaredNorm (), items_[i].point};
-      if (neighbor.sqr_distance <= nearest.reach () && accept (neighbor, items_[i].position))
-        nearest.add (neighbor);
+    double reach () const { return nearest.reach (); }
+    bool skips (const Node& node) const
+    {
+      const Eigen::Vector3d farthest =
+          (ahead.array () < 0.0).select (node.box.min (), node.box.max ()) - query;
+      return skip (node.first, node.last) || ahead.dot (farthest) < 0.0;
     }
-    return;
-  }
-  const Index left = node + 1;
-  const bool left_first =
-      nodes_[left].sqrDistance (query) <= nodes_[here.right].sqrDistance (query);
-  searchIf (left_first ? left : here.right, query, ahead, accept, skip, nearest);
-  searchIf (left_first ? here.right : left, query, ahead, accept, skip, nearest);
+    void add (const Neighbor& candidate, const Eigen::Vector3d& position)
+    {
+      if (candidate.sqr_distance <= reach () && accept (candidate, position))
+        nearest.add (candidate, position);
+    }
+  };
+  Accepted visit{
+      {result, std::min (k, items_.size ()), radius * radius}, query, ahead, accept, skip};
+  search (0, query, visit);
+  visit.nearest.end ();
 }
 
 /// The k nearest points to points that mostly are near their predecessors, as along a space-filling
@@ -264,9 +268,9 @@ private:
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero (); // of the ball
   double radius_ = -1.0;                              // of the ball; negative: there is none
   std::vector<Index> ball_;                           // points in the ball, and their coordinates
-  std::vector<double> x_, y_, z_;
-  std::vector<double> sqr_distances_; // of these to the query
-  std::vector<Neighbor> near_;        // points within reach, unordered
+  Eigen::Array<double, Eigen::Dynamic, 3> places_;
+  Eigen::ArrayXd sqr_distances_; // of these to the query
+  std::vector<Neighbor> near_;   // points within reach, unordered
 };
 
 } // namespace pcl::floater

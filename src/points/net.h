@@ -44,13 +44,6 @@ struct Stacks
   Index at = NONE;        ///< point of the net where it is
 };
 
-/// Flags of the points in whose surroundings points lie on one another; empty if there are none. On
-/// all threads, 0.05 microseconds a point where there are none.
-/// \param neighbors of each point, nearest first
-std::vector<std::uint8_t>
-findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   const NetLimits& limits, const RunContext& run);
-
 /// Leaves a net in the working set: sets points aside until none is nearer to another than the gap,
 /// in the spacing of the net itself. The first along the curve stay, so the result depends on no
 /// order of the input and no number of threads. Each point of the net then is at the mean of itself

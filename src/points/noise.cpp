@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "points/points.h"
 #include "points/regions.h"
 
 #include <Eigen/Cholesky>
@@ -18,12 +17,10 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t FEWEST = 10;    // points that a residual needs
-constexpr std::size_t SPACING_OF = 6; // nearest points in the mean distance that is the local
-                                      // spacing
-constexpr std::size_t CENTRES = 8;    // noise is measured at one in this many points
-constexpr std::size_t AROUND = 10;    // centres around a point
-constexpr std::size_t PROBES = 8;     // one in this many centres is measured first
+constexpr std::size_t FEWEST = 10; // points that a residual needs
+constexpr std::size_t CENTRES = 8; // noise is measured at one in this many points
+constexpr std::size_t AROUND = 10; // centres around a point
+constexpr std::size_t PROBES = 8;  // one in this many centres is measured first
 // Minimum share of noisy centres. Below, NoiseLimits::disturbed_share cannot be reached unless
 // noise triples where it is smoothed, and all neighbours there disagree.
 constexpr double FEW = 0.01;
@@ -50,16 +47,6 @@ quadricResidual (const std::vector<Eigen::Vector3d>& offsets, const PrincipalAxe
   const double explained = right_side.dot (normal_matrix.ldlt ().solve (right_side));
   const double points = static_cast<double> (offsets.size ());
   return axes.spread[2] * std::sqrt (std::max (0.0, sqr_heights - explained) / (points - 6.0));
-}
-
-double
-spacingOf (const std::vector<Eigen::Vector3d>& positions, Index p, Row row)
-{
-  const std::size_t count = std::min (SPACING_OF, row.size ());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-    sum += (positions[row[i]] - positions[p]).norm ();
-  return count > 0 ? sum / static_cast<double> (count) : 0.0;
 }
 
 // What is measured at one point.
@@ -100,8 +87,8 @@ public:
         whole[scale] = offsets_[LOOKED_AT].norm ();
       }
       double spacing = 0.0;
-      for (std::size_t i = 1; i <= SPACING_OF; ++i)
-        spacing += offsets_[i].norm () / static_cast<double> (SPACING_OF);
+      for (std::size_t i = 1; i <= SPACING_NEIGHBORS; ++i)
+        spacing += offsets_[i].norm () / static_cast<double> (SPACING_NEIGHBORS);
       const PrincipalAxes axes = axesOfOffsets ();
       if (axes.spread[1] * axes.spread[1] <
           limits_.least_aspect * axes.spread[2] * axes.spread[2]) {

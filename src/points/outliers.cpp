@@ -157,8 +157,6 @@ namespace {
 constexpr std::size_t NEAREST_POINTS = 20; // nearest neighbours, also for balls
 constexpr std::size_t REACH_OF = 6;        // neighbour whose distance is a point's reach
 
-using Arc = std::pair<Index, Index>; // a point and one that it counts as close
-
 double
 distance (const Positions& positions, Index p, Index q)
 {
@@ -225,9 +223,9 @@ private:
   std::vector<double> scratch_;
 };
 
-// Arcs to points that lie apart, from points that enough others count as close. An outlier may well
-// be nearest to another outlier, but few points are nearest to the latter.
-std::vector<Arc>
+// Of each point that enough others count as close: the points apart that it counts as close. An
+// outlier may well be nearest to another outlier, but few points are nearest to the latter.
+CsrLists
 arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
              const OutlierLimits& limits)
 {
@@ -235,47 +233,42 @@ arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
   for (std::size_t q = 0; q < apart.size (); ++q)
     for (Index p : neighbors.first (q, limits.own))
       ++owners[p];
-  std::vector<Arc> arcs;
-  for (std::size_t q = 0; q < apart.size (); ++q)
-    if (owners[q] >= limits.owners)
-      for (Index p : neighbors.first (q, limits.own))
-        if (apart[p] != 0)
-          arcs.emplace_back (static_cast<Index> (q), p);
-  return arcs; // ascending by q
+  return makeCsrLists (apart.size (), [&] (const auto& emit) {
+    for (std::size_t q = 0; q < apart.size (); ++q)
+      if (owners[q] >= limits.owners)
+        for (Index p : neighbors.first (q, limits.own))
+          if (apart[p] != 0)
+            emit (q, p);
+  });
 }
 
 // Clears the flag of points that can be reached from the surface along arcs.
 void
-keepReached (const std::vector<Arc>& arcs, std::vector<std::uint8_t>& apart)
+keepReached (const CsrLists& arcs, std::vector<std::uint8_t>& apart)
 {
   std::vector<Index> reached;
-  const auto reach = [&] (Index p) {
-    if (apart[p] != 0)
-      reached.push_back (p);
-    apart[p] = 0;
-  };
-  const std::vector<std::uint8_t> before = apart;
-  for (const Arc& arc : arcs)
-    if (before[arc.first] == 0)
-      reach (arc.second);
+  for (Index q = 0; q < apart.size (); ++q)
+    if (apart[q] == 0 && arcs.row (q).size () > 0)
+      reached.push_back (q);
   while (!reached.empty ()) {
     const Index q = reached.back ();
     reached.pop_back ();
-    for (auto arc = std::lower_bound (arcs.begin (), arcs.end (), Arc (q, 0));
-         arc != arcs.end () && arc->first == q; ++arc)
-      reach (arc->second);
+    for (const Index p : arcs.row (q))
+      if (std::exchange (apart[p], std::uint8_t{0}) != 0)
+        reached.push_back (p);
   }
 }
 
 // The points that lie apart in clusters of at most `largest_cluster`, ascending.
 std::vector<Index>
-smallClusters (const std::vector<Arc>& arcs, std::size_t largest_cluster,
+smallClusters (const CsrLists& arcs, std::size_t largest_cluster,
                const std::vector<std::uint8_t>& apart)
 {
   DisjointSets clusters (apart.size ());
-  for (const Arc& arc : arcs)
-    if (apart[arc.first] != 0 && apart[arc.second] != 0)
-      clusters.join (arc.first, arc.second);
+  for (Index q = 0; q < apart.size (); ++q)
+    for (const Index p : arcs.row (q))
+      if (apart[q] != 0 && apart[p] != 0)
+        clusters.join (q, p);
   std::vector<Index> size (apart.size (), 0), points;
   for (Index p = 0; p < apart.size (); ++p)
     ++size[clusters.find (p)];
@@ -309,7 +302,7 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   });
   if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
     return {};
-  const std::vector<Arc> arcs = arcsToApart (neighbors, apart, limits);
+  const CsrLists arcs = arcsToApart (neighbors, apart, limits);
   keepReached (arcs, apart);
   return smallClusters (arcs, limits.cluster, apart);
 }

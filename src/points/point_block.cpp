@@ -44,21 +44,6 @@ PointBlock::placeOf (Index point) const
                              points.begin ());
 }
 
-BlockCutter::BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
-                          const RunContext& run)
-    : points_ (positions.size ())
-{
-  const auto buckets = std::make_shared<const std::vector<Box>> (makeBuckets (positions, run));
-  groups_ = makeGroups (*buckets);
-  blocks_ = std::clamp<std::size_t> (blocks, 1, std::max<std::size_t> (1, buckets->size ()));
-  read_buckets_ = [buckets] (std::size_t first, std::size_t last, std::vector<Box>& to) {
-    to.insert (to.end (), buckets->data () + first, buckets->data () + last);
-  };
-  read_ = [&positions] (Index first, Index last, std::vector<Eigen::Vector3d>& to) {
-    to.insert (to.end (), positions.data () + first, positions.data () + last);
-  };
-}
-
 BlockCutter::BlockCutter (std::size_t points, std::vector<Box> groups, std::size_t blocks,
                           ReadBuckets read_buckets, Read read)
     : points_ (points), groups_ (std::move (groups)), blocks_ (blocks),

@@ -49,12 +49,6 @@ public:
   using ReadBuckets =
       std::function<void (std::size_t first, std::size_t last, std::vector<Box>& buckets)>;
 
-  /// O(n), 1 byte per point.
-  /// \param positions of the working set; must outlive the cutter
-  /// \param blocks requested number; reduced to at least a bucket of points in each
-  BlockCutter (const std::vector<Eigen::Vector3d>& positions, std::size_t blocks,
-               const RunContext& run);
-
   /// For positions and buckets that are stored elsewhere: 0.012 bytes per point. If there are more
   /// blocks than buckets, some blocks have no points; these cannot be cut.
   /// \param groups see makeGroups
@@ -101,7 +95,7 @@ private:
 
   std::size_t points_;
   std::vector<Box> groups_;
-  std::size_t blocks_ = 1;
+  std::size_t blocks_;
   ReadBuckets read_buckets_;
   Read read_;
 };

@@ -232,10 +232,7 @@ checkPoints (const Points& points)
 std::vector<Index>
 removePoints (Points& points, const std::vector<Index>& removed)
 {
-  std::vector<Index> cloud_indices;
-  cloud_indices.reserve (removed.size ());
-  for (const Index p : removed)
-    cloud_indices.push_back (points.cloud_index[p]);
+  std::vector<Index> cloud_indices = valuesAt (points.cloud_index, removed);
   removeStacked (points.stacked, removed, cloud_indices);
   std::sort (cloud_indices.begin (), cloud_indices.end ());
   for (auto* positions : {&points.positions, &points.stacked.own})
@@ -272,9 +269,8 @@ setAside (Points& points, const std::vector<Index>& kept, const RunContext& run)
   std::iota (aside.begin (), aside.end (), Index{0});
   eraseRows (aside, kept);
   StackedPoints stacked;
-  stacked.positions = positionsOf (points.positions, aside);
-  for (const Index p : aside)
-    stacked.cloud_index.push_back (points.cloud_index[p]);
+  stacked.positions = valuesAt (points.positions, aside);
+  stacked.cloud_index = valuesAt (points.cloud_index, aside);
   const double scale = points.scale;
   removePoints (points, aside);
   for (Eigen::Vector3d& position : stacked.positions)

@@ -163,15 +163,6 @@ areInOrder ()
 static_assert (areInOrder (), "each finding has a sentence, in the order of FindingId");
 
 std::string
-placeText (std::uint32_t index, const Eigen::Vector3d& at)
-{
-  std::ostringstream text;
-  text.precision (9); // distinguishes all numbers in single precision
-  text << "point " << index << " (" << at.x () << ", " << at.y () << ", " << at.z () << ")";
-  return text.str ();
-}
-
-std::string
 fill (std::string_view text, const Finding& finding);
 
 // What stands for the braces around `key`.
@@ -226,6 +217,15 @@ std::string
 counted (std::size_t count, const char* one, const char* several)
 {
   return std::to_string (count) + " " + (count == 1 ? one : several);
+}
+
+std::string
+placeText (std::uint32_t index, const Eigen::Vector3d& at)
+{
+  std::ostringstream text;
+  text.precision (9); // distinguishes all numbers in single precision
+  text << "point " << index << " (" << at.x () << ", " << at.y () << ", " << at.z () << ")";
+  return text.str ();
 }
 
 std::string

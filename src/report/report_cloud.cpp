@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/report_cloud.h"
 
+#include "core/order_statistics.h"
 #include "report/findings.h"
 #include "report/report_mesh.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace pcl::floater {
 namespace {
@@ -44,12 +44,10 @@ reportPoints (const Points& points, Report& report)
 Problem
 tooFarAway (Index cloud_index, const Eigen::Vector3d& position)
 {
-  std::ostringstream text;
-  text << "point " << cloud_index << " (" << position.x () << ", " << position.y () << ", "
-       << position.z ()
-       << ") is so far away that double precision cannot hold it together with the others: take "
-          "such points out of the cloud, or have outliers left out";
-  return {RunStatus::DEGENERATE, text.str ()};
+  return {RunStatus::DEGENERATE,
+          placeText (cloud_index, position) +
+              " is so far away that double precision cannot hold it together with the others: take "
+              "such points out of the cloud, or have outliers left out"};
 }
 
 void
@@ -57,7 +55,8 @@ reportOutliers (const std::vector<Index>& outliers, FindingId what, Report& repo
 {
   if (outliers.empty ())
     return;
-  addFinding (report, what, {}, {}, outliers.size (), outliers.front ());
+  addFinding (report, what, {}, {}, outliers.size (),
+              *std::min_element (outliers.begin (), outliers.end ()));
   report.outliers.insert (report.outliers.end (), outliers.begin (), outliers.end ());
   std::sort (report.outliers.begin (), report.outliers.end ());
   report.statistics.outlier_points = report.outliers.size ();
@@ -67,8 +66,7 @@ void
 reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_unasked,
                Report& report)
 {
-  for (const Index p : scatter)
-    report.scatter.push_back (points.cloud_index[p]);
+  report.scatter = valuesAt (points.cloud_index, scatter);
   for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
     if (std::binary_search (scatter.begin (), scatter.end (), points.stacked.of[i]))
       report.scatter.push_back (points.stacked.cloud_index[i]);
@@ -136,18 +134,6 @@ reportOtherViewpoint (const Points& points, const Viewpoint& other, Report& repo
   const Eigen::Vector3d place = inCloud (points, other);
   addFinding (report, other.is_far ? FindingId::OTHER_DIRECTION : FindingId::OTHER_VIEWPOINT,
               points, {}, place[0], place[1], place[2]);
-}
-
-void
-reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report)
-{
-  std::vector<Index> outliers;
-  outliers.reserve (unused.size ());
-  for (const Index p : unused)
-    outliers.push_back (points.cloud_index[p]);
-  std::sort (outliers.begin (), outliers.end ());
-  report.statistics.working_points = points.size () - unused.size ();
-  reportOutliers (outliers, FindingId::OUTLIERS, report);
 }
 
 // Reports which rule decided the front of each part of the mesh, and with what confidence.

@@ -25,7 +25,7 @@ Problem
 tooFarAway (Index cloud_index, const Eigen::Vector3d& position);
 
 /// Points left out of the mesh, with a finding; adds them to those reported before.
-/// \param outliers cloud indices, ascending
+/// \param outliers cloud indices
 /// \param what     GROSS_OUTLIERS or OUTLIERS
 void
 reportOutliers (const std::vector<Index>& outliers, FindingId what, Report& report);
@@ -56,9 +56,5 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 /// Warns that the points are evenly spaced from another viewpoint than the given one.
 void
 reportOtherViewpoint (const Points& points, const Viewpoint& other, Report& report);
-
-/// Points in no triangle of a view are outliers.
-void
-reportOutliersOfView (const Points& points, const std::vector<Index>& unused, Report& report);
 
 } // namespace pcl::floater

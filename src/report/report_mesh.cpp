@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/report_mesh.h"
 
+#include "core/order_statistics.h"
 #include "report/findings.h"
 
 #include <algorithm>
@@ -152,8 +153,7 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
 {
   const Parameterization& parameterization = disc.parameterization;
   const Boundary& boundary = disc.boundary;
-  for (const Index p : boundary.loop)
-    report.loop.push_back (points.cloud_index[p]);
+  report.loop = valuesAt (points.cloud_index, boundary.loop);
   report.statistics.boundary_candidates = boundary.candidates;
   report.statistics.loop_points = boundary.loop.size ();
   if (boundary.largest_step > LONG_STEP)
@@ -231,8 +231,7 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
                 (found.broken_at == NONE ? "" : ", one at " + place (points, found.broken_at)) +
                 "; please report this with the cloud"};
   if (report.loop.empty () && !found.loops.empty ()) {
-    for (const Index p : found.loops.front ().points)
-      report.loop.push_back (points.cloud_index[p]);
+    report.loop = valuesAt (points.cloud_index, found.loops.front ().points);
     report.statistics.loop_points = report.loop.size ();
   }
   reportUnused (points, found, report);

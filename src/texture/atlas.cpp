@@ -4,6 +4,7 @@
 
 #include "core/exact.h"
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 
 #include <algorithm>
@@ -333,12 +334,8 @@ planeArea (const ChartLayout& chart)
 Eigen::Vector2d
 longSideOfBox (const ChartLayout& chart)
 {
-  std::vector<Eigen::Vector2d> places, hull;
-  places.reserve (chart.loop.size ());
-  for (const Index p : chart.loop)
-    places.push_back (chart.uv[p]);
-  for (const std::size_t corner : convexHull (places))
-    hull.push_back (places[corner]);
+  const std::vector<Eigen::Vector2d> places = valuesAt (chart.uv, chart.loop);
+  const std::vector<Eigen::Vector2d> hull = valuesAt (places, convexHull (places));
   Eigen::Vector2d best = Eigen::Vector2d::UnitX ();
   double least = std::numeric_limits<double>::infinity ();
   for (std::size_t i = 0; i < hull.size (); ++i) {

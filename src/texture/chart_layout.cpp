@@ -183,34 +183,15 @@ untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vect
   constexpr double MOST_FLIPPED = 0.2; // share of flipped triangles; above, the whole is flipped
   constexpr double EAR_HEIGHT = 0.2; // of a triangle with two edges on the boundary, over its base
   const std::vector<Triangle>& triangles = chart.mesh.triangles;
-  // Per vertex: where it is a corner, as 3 triangle + corner.
-  const CsrLists corners = makeCsrLists (uv.size (), [&triangles] (const auto& emit) {
-    for (Index t = 0; t < triangles.size (); ++t)
-      for (std::uint8_t i = 0; i < 3; ++i)
-        emit (triangles[t][i], 3 * t + i);
-  });
-  std::vector<Index> before (uv.size (), NONE), after (uv.size (), NONE); // along the boundary
-  for (std::size_t i = 0; i < chart.loop.size (); ++i) {
-    const Index p = chart.loop[i], next = chart.loop[i + 1 == chart.loop.size () ? 0 : i + 1];
-    after[p] = next;
-    before[next] = p;
-  }
-  // The mean of the neighbours; on the boundary, of those along it.
+  const MeshRings rings (chart.mesh);
   const auto targetOf = [&] (Index p) -> Eigen::Vector2d {
-    const Row row = corners.row (p);
-    if (before[p] == NONE) {
-      Eigen::Vector2d sum = Eigen::Vector2d::Zero ();
-      for (const Index id : row)
-        sum += uv[triangles[id / 3][(id + 1) % 3]];
-      return sum / static_cast<double> (row.size ());
-    }
-    const Eigen::Vector2d middle = 0.5 * (uv[before[p]] + uv[after[p]]);
-    if (row.size () > 1)
-      return middle;
+    const Eigen::Vector2d mean = rings.meanAround (chart.mesh, uv, p);
+    if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
+      return mean;
     // A vertex of one triangle lies to the right of the line from the vertex before to the one
     // after it.
-    const Eigen::Vector2d way = uv[after[p]] - uv[before[p]];
-    return middle + EAR_HEIGHT * Eigen::Vector2d (way.y (), -way.x ());
+    const Eigen::Vector2d way = uv[rings.after[p]] - uv[rings.before[p]];
+    return mean + EAR_HEIGHT * Eigen::Vector2d (way.y (), -way.x ());
   };
   std::vector<Index> moved;
   for (int round = 0; round < ROUNDS_AT_MOST; ++round) {
@@ -237,7 +218,7 @@ untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vect
     for (int ring = 0; ring < 1 + round / ROUNDS_PER_RING; ++ring)
       // NOLINTNEXTLINE(modernize-loop-convert): they become more
       for (std::size_t i = 0, size = bad.size (); i < size; ++i)
-        for (const Index id : corners.row (bad[i]))
+        for (const Index id : rings.leaving.row (bad[i]))
           add (triangles[id / 3]);
     moved.insert (moved.end (), bad.begin (), bad.end ());
     sortUnique (moved);

@@ -11,23 +11,20 @@
 #include <cmath>
 
 namespace pcl::floater {
-namespace {
-// The boundary of a disc; empty for other meshes.
-std::vector<Index>
-discLoop (const TriangleMesh& mesh, std::size_t vertices)
+MeshRings::MeshRings (const TriangleMesh& mesh)
+    : leaving (makeCsrLists (mesh.triangle_of.size (),
+                             [&mesh] (const auto& emit) {
+                               for (Index t = 0; t < mesh.triangles.size (); ++t)
+                                 for (std::uint8_t side = 0; side < 3; ++side)
+                                   emit (mesh.from ({t, side}), 3 * t + side);
+                             })),
+      before (mesh.triangle_of.size (), NONE), after (before)
 {
-  std::size_t inner_sides = 0;
-  for (const auto& neighbors : mesh.neighbors)
-    for (const Index other : neighbors)
-      inner_sides += other != NONE ? 1 : 0;
-  const std::size_t edges = 3 * mesh.triangles.size () - inner_sides / 2;
-  if (vertices + mesh.triangles.size () != edges + 1)
-    return {};
-  std::vector<std::vector<Index>> loops = boundaryLoops (mesh, 1);
-  return loops.size () == 1 ? std::move (loops.front ()) : std::vector<Index> ();
+  for (const MeshEdge edge : boundaryEdges (mesh)) {
+    after[mesh.from (edge)] = mesh.to (edge);
+    before[mesh.to (edge)] = mesh.from (edge);
+  }
 }
-
-} // namespace
 
 ChartMesh
 makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>& chart,
@@ -39,9 +36,7 @@ makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>&
     result.points.insert (result.points.end (), triangles[t].begin (), triangles[t].end ());
   sortUnique (result.points);
   result.points.shrink_to_fit ();
-  result.positions.reserve (result.points.size ());
-  for (const Index p : result.points)
-    result.positions.push_back (positions[p]);
+  result.positions = valuesAt (positions, result.points);
   result.mesh.triangles.reserve (chart.size ());
   for (const Index t : chart) {
     Triangle corners;
@@ -51,8 +46,12 @@ makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>&
           result.points.begin ());
     result.mesh.triangles.push_back (corners);
   }
-  if (result.mesh.connect (result.points.size (), 1))
-    result.loop = discLoop (result.mesh, result.points.size ());
+  if (!result.mesh.connect (result.points.size (), 1))
+    return result;
+  // By Euler's formula.
+  std::vector<std::vector<Index>> loops = boundaryLoops (result.mesh, 1);
+  if (loops.size () == 1 && 2 * result.points.size () == chart.size () + loops.front ().size () + 2)
+    result.loop = std::move (loops.front ());
   return result;
 }
 

@@ -27,6 +27,29 @@ ChartMesh
 makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>& chart,
                const std::vector<Eigen::Vector3d>& positions);
 
+/// What is around each point of a mesh.
+struct MeshRings
+{
+  explicit MeshRings (const TriangleMesh& mesh);
+
+  CsrLists leaving;          ///< edges that leave it, as 3 triangle + side
+  std::vector<Index> before; ///< neighbour along the boundary, NONE if inside
+  std::vector<Index> after;  ///< the other one
+
+  /// The mean value of the neighbours of a vertex; at the boundary, of those along it.
+  template <typename Vector>
+  Vector meanAround (const TriangleMesh& mesh, const std::vector<Vector>& values, Index p) const
+  {
+    if (before[p] != NONE)
+      return 0.5 * (values[before[p]] + values[after[p]]);
+    const Row row = leaving.row (p);
+    Vector sum = Vector::Zero ();
+    for (const Index id : row)
+      sum += values[mesh.to ({id / 3, static_cast<std::uint8_t> (id % 3)})];
+    return sum / static_cast<double> (row.size ());
+  }
+};
+
 /// A triangle in the plane, anti-clockwise, with its longest edge on the first axis. Lengths are
 /// relative to that edge.
 struct FlatTriangle

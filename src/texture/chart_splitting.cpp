@@ -17,7 +17,7 @@ using Layouts = std::vector<ChartLayout>;
 
 // The triangles of each part, ascending.
 std::vector<std::vector<Index>>
-listsOf (const MeshParts& parts)
+listsOf (const MeshComponents& parts)
 {
   std::vector<std::vector<Index>> lists (parts.count);
   for (std::size_t t = 0; t < parts.of_triangle.size (); ++t)
@@ -84,9 +84,10 @@ private:
 
 Layouts
 layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const std::vector<Eigen::Vector3d>& smooth, bool whole_discs, double largest_stretch,
+              const std::vector<Eigen::Vector3d>& smooth, const TextureOptions& options,
               const TextureLimits& limits, const RunContext& run)
 {
+  const double largest_stretch = options.largest_stretch;
   const SingleBlasThread single; // more are slower on small matrices, and change the last digits
   const RunContext within = run.withThreads (1).withinStage ();
   const auto shareMoved = [&] (const ChartLayout& chart) {
@@ -119,30 +120,30 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     return finished;
   };
   Layouts result;
-  const auto take = [&result] (std::vector<Layouts>& lists) {
-    for (Layouts& list : lists)
+  // Adds the layouts of each list of triangles.
+  const auto layOutEach = [&] (const std::vector<std::vector<Index>>& lists, const auto& layOut) {
+    std::vector<Layouts> found (lists.size ());
+    parallelTasks (run, lists.size (), [&] (std::size_t c) { found[c] = layOut (lists[c]); });
+    for (Layouts& list : found)
       std::move (list.begin (), list.end (), std::back_inserter (result));
   };
   std::vector<std::uint8_t> is_done (mesh.triangles.size (), 0);
-  if (whole_discs) {
+  if (options.whole_discs) {
     constexpr double ANY_STRETCH = std::numeric_limits<double>::infinity ();
     TextureLimits whole = limits;
     whole.descent.most_on_circle = std::numeric_limits<std::size_t>::max ();
     const ChartCutter by_smooth (mesh, smooth, ANY_STRETCH, whole, within);
     const ChartCutter by_true (mesh, positions, ANY_STRETCH, whole, within);
-    const std::vector<std::vector<Index>> lists = listsOf (findComponents (mesh, run));
-    std::vector<Layouts> discs (lists.size ());
-    parallelTasks (run, lists.size (), [&] (std::size_t c) {
-      ChartLayout disc = by_smooth.layOut (lists[c]);
+    layOutEach (listsOf (findComponents (mesh, run)), [&] (const std::vector<Index>& triangles) {
+      ChartLayout disc = by_smooth.layOut (triangles);
       if (disc.loop.empty ())
-        return; // no disc
+        return Layouts{}; // no disc
       if (disc.uv.empty ())
-        disc = by_true.layOut (lists[c]);
-      for (const Index t : lists[c])
+        disc = by_true.layOut (triangles);
+      for (const Index t : triangles)
         is_done[t] = 1;
-      discs[c] = finish (std::move (disc), by_smooth, by_true);
+      return finish (std::move (disc), by_smooth, by_true);
     });
-    take (discs);
   }
   run.beginStep (0.1);
   const std::vector<std::vector<Index>> lists =
@@ -151,12 +152,11 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
   const ChartCutter by_smooth (mesh, smooth, largest_stretch, limits, within);
   const ChartCutter by_true (mesh, positions, std::max (largest_stretch, limits.too_much), limits,
                              within);
-  std::vector<Layouts> layouts (lists.size ());
-  parallelTasks (run, lists.size (), [&] (std::size_t c) {
-    if (is_done[lists[c].front ()] == 0)
-      layouts[c] = finish (by_smooth.layOut (lists[c]), by_smooth, by_true);
+  layOutEach (lists, [&] (const std::vector<Index>& triangles) {
+    return is_done[triangles.front ()] != 0
+               ? Layouts{}
+               : finish (by_smooth.layOut (triangles), by_smooth, by_true);
   });
-  take (layouts);
   std::sort (result.begin (), result.end (), [] (const ChartLayout& a, const ChartLayout& b) {
     return a.triangles.front () < b.triangles.front ();
   });

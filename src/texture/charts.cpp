@@ -44,7 +44,7 @@ oneMinusCosine (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 
 // Numbers charts in the order of their first triangles.
 void
-renumber (MeshParts& parts)
+renumber (MeshComponents& parts)
 {
   std::vector<Index> number (parts.count, NONE);
   parts.count = 0;
@@ -59,7 +59,7 @@ class ChartMerger
 {
 public:
   ChartMerger (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<Eigen::Vector3d>& area_vectors, const MeshParts& facets,
+               const std::vector<Eigen::Vector3d>& area_vectors, const MeshComponents& facets,
                bool halves, const ChartLimits& limits)
       : mesh_ (mesh), facets_ (facets), limits_ (limits), halves_ (halves), charts_ (facets.count),
         part_of_ (facets.count), left_ (facets.count)
@@ -112,9 +112,9 @@ public:
     takeOffers (run);
   }
 
-  MeshParts parts ()
+  MeshComponents parts ()
   {
-    MeshParts parts;
+    MeshComponents parts;
     parts.of_triangle.resize (mesh_.triangles.size ());
     for (std::size_t t = 0; t < mesh_.triangles.size (); ++t)
       parts.of_triangle[t] = chartOf (static_cast<Index> (t));
@@ -291,7 +291,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const MeshParts& facets_;
+  const MeshComponents& facets_;
   const ChartLimits& limits_;
   std::array<Eigen::Vector3d, DIRECTIONS> directions_;
   bool halves_; // until there are two, whatever the deviation
@@ -308,7 +308,7 @@ private:
 void
 straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
-                 const RunContext& run, MeshParts& charts)
+                 const RunContext& run, MeshComponents& charts)
 {
   // Weight of a seam along an edge.
   const auto weight = [&] (MeshEdge edge) {
@@ -373,15 +373,15 @@ straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& p
 
 } // namespace
 
-MeshParts
+MeshComponents
 findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, bool halves,
             const ChartLimits& limits, const RunContext& run)
 {
   const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
-  const MeshParts facets = growFacets (mesh, positions, area_vectors, limits, run);
+  const MeshComponents facets = growFacets (mesh, positions, area_vectors, limits, run);
   ChartMerger merger (mesh, positions, area_vectors, facets, halves, limits);
   merger.merge (run);
-  MeshParts charts = merger.parts ();
+  MeshComponents charts = merger.parts ();
   straightenSeams (mesh, positions, area_vectors, limits, run, charts);
   renumber (charts);
   return charts;

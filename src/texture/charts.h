@@ -65,9 +65,6 @@ struct ChartLimits
   int straightening_rounds = 8; ///< maximum; it ends when nothing changes
 };
 
-/// A partition of the triangles of a mesh.
-using MeshParts = MeshComponents;
-
 /// Area vectors of all triangles: twice the area times the unit normal. O(n).
 std::vector<Eigen::Vector3d>
 areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -76,7 +73,7 @@ areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
 /// Joins neighbouring triangles to facets: discs, at most as large as ChartLimits::most_in_facet
 /// and flatter than ChartLimits::facet_deviation. Few triangles stay alone. O(n), one thread: 0.2
 /// microseconds per triangle.
-MeshParts
+MeshComponents
 growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run);
@@ -89,7 +86,7 @@ growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
 /// shortens the seam, with less weight along creases. O(n log n), mostly in one thread: a second for
 /// a million triangles.
 /// \param halves the mesh is cut in two, if it can be, whatever the deviation of the charts
-MeshParts
+MeshComponents
 findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, bool halves,
             const ChartLimits& limits, const RunContext& run);
 

@@ -4,6 +4,7 @@
 
 #include "core/exact.h"
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -314,6 +315,13 @@ private:
   Cholesky solver_;
 };
 
+// Exact arithmetic has no NaN.
+bool
+areFinite (const std::vector<Eigen::Vector2d>& uv)
+{
+  return std::all_of (uv.begin (), uv.end (), [] (const auto& p) { return p.allFinite (); });
+}
+
 } // namespace
 
 void
@@ -326,24 +334,17 @@ descendDistortion (const ChartMesh& chart, const RestShapes& rest, const Descent
 bool
 isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv)
 {
-  // Exact arithmetic has no NaN.
-  if (!std::all_of (loop.begin (), loop.end (), [&uv] (Index p) { return uv[p].allFinite (); }))
-    return false;
-  std::vector<Eigen::Vector2d> polygon;
-  polygon.reserve (loop.size ());
-  for (const Index p : loop)
-    polygon.push_back (uv[p]);
-  return isSimplePolygon (polygon);
+  const std::vector<Eigen::Vector2d> polygon = valuesAt (uv, loop);
+  return areFinite (polygon) && isSimplePolygon (polygon);
 }
 
 bool
 isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
 {
-  if (!std::all_of (uv.begin (), uv.end (), [] (const auto& p) { return p.allFinite (); }))
-    return false; // exact arithmetic has no NaN
-  return std::all_of (triangles.begin (), triangles.end (), [&] (const Triangle& t) {
-    return isAntiClockwise (uv[t[0]], uv[t[1]], uv[t[2]]);
-  });
+  return areFinite (uv) &&
+         std::all_of (triangles.begin (), triangles.end (), [&] (const Triangle& t) {
+           return isAntiClockwise (uv[t[0]], uv[t[1]], uv[t[2]]);
+         });
 }
 
 } // namespace pcl::floater

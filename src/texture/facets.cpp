@@ -22,7 +22,7 @@ areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
   return vectors;
 }
 
-MeshParts
+MeshComponents
 growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run)
@@ -30,7 +30,7 @@ growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
   // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
   // deviation: in flat regions, facets become round.
   constexpr double ROUNDNESS = 0.01;
-  MeshParts facets;
+  MeshComponents facets;
   facets.of_triangle.assign (mesh.triangles.size (), NONE);
   const std::size_t most =
       std::clamp<std::size_t> (mesh.triangles.size () / limits.facets, 1, limits.most_in_facet);

@@ -3,6 +3,7 @@
 #include "texture/smoothing.h"
 
 #include "core/parallel.h"
+#include "texture/chart_mesh.h"
 #include "texture/charts.h"
 
 #include <Eigen/Geometry>
@@ -38,22 +39,9 @@ class Smoother
 public:
   Smoother (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             const SmoothingLimits& limits, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run),
-        leaving_ (makeCsrLists (positions.size (),
-                                [&mesh] (const auto& emit) {
-                                  for (Index t = 0; t < mesh.triangles.size (); ++t)
-                                    for (std::uint8_t side = 0; side < 3; ++side)
-                                      emit (mesh.from ({t, side}), 3 * t + side);
-                                })),
-        after_ (positions.size (), NONE), before_ (positions.size (), NONE),
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), run_ (run), rings_ (mesh),
         edge_bends_ (3 * mesh.triangles.size (), 0.0), bends_ (positions.size ())
   {
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (mesh.neighbors[t][side] == NONE) {
-          after_[mesh.from ({t, side})] = mesh.to ({t, side});
-          before_[mesh.to ({t, side})] = mesh.from ({t, side});
-        }
   }
 
   std::vector<Eigen::Vector3d> run ()
@@ -104,10 +92,10 @@ private:
   template <typename Work>
   void visitNeighbors (Index p, const Work& work) const
   {
-    for (const Index id : leaving_.row (p))
+    for (const Index id : rings_.leaving.row (p))
       work (mesh_.to ({id / 3, static_cast<std::uint8_t> (id % 3)}));
-    if (before_[p] != NONE)
-      work (before_[p]);
+    if (rings_.before[p] != NONE)
+      work (rings_.before[p]);
   }
 
   // The angle between the normals at an edge: positive where the surface is convex.
@@ -144,7 +132,7 @@ private:
       if (is_marked[p] == 0)
         return;
       Bends& bends = bends_[p] = {};
-      for (const Index id : leaving_.row (p)) {
+      for (const Index id : rings_.leaving.row (p)) {
         const double bend = edge_bends_[id];
         (bend > 0.0 ? bends.outwards : bends.inwards) += std::abs (bend);
         bends.edges += mesh_.neighbors[id / 3][id % 3] != NONE ? 1 : 0;
@@ -216,26 +204,19 @@ private:
   // get between these, and moves with them instead.
   Eigen::Vector3d targetOf (const std::vector<Eigen::Vector3d>& positions, Index p) const
   {
-    const Row row = leaving_.row (p);
-    if (before_[p] != NONE) {
-      const Eigen::Vector3d middle = 0.5 * (positions[before_[p]] + positions[after_[p]]);
-      if (row.size () > 1)
-        return middle;
-      return positions_[p] + middle - 0.5 * (positions_[before_[p]] + positions_[after_[p]]);
-    }
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-    visitNeighbors (p, [&] (Index q) { sum += positions[q]; });
-    return sum / static_cast<double> (row.size ());
+    const Eigen::Vector3d mean = rings_.meanAround (mesh_, positions, p);
+    if (rings_.before[p] == NONE || rings_.leaving.row (p).size () > 1)
+      return mean;
+    return positions_[p] + mean - rings_.meanAround (mesh_, positions_, p);
   }
 
   const TriangleMesh& mesh_;
   const std::vector<Eigen::Vector3d>& positions_;
   const SmoothingLimits& limits_;
   const RunContext& run_;
-  CsrLists leaving_;                  // per point: edges that leave it, as 3 triangle + side
-  std::vector<Index> after_, before_; // per point: neighbours along the boundary, NONE if inside
-  std::vector<double> edge_bends_;    // per edge, as 3 triangle + side; 0 on the boundary
-  std::vector<Bends> bends_;          // per point
+  MeshRings rings_;
+  std::vector<double> edge_bends_; // per edge, as 3 triangle + side; 0 on the boundary
+  std::vector<Bends> bends_;       // per point
 };
 
 } // namespace

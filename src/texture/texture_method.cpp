@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "core/problem.h"
-#include "texture/smoothing.h"
 #include "texture/stretch.h"
 
 #include <algorithm>
@@ -108,13 +107,11 @@ findSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
     }
 }
 
-} // namespace
-
+// All steps. Sets everything except status and message.
 Problem
 makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
                         const std::vector<Triangle>& triangles, const TextureOptions& options,
-                        const TextureLimits& limits, const RunContext& run,
-                        TextureCoordinates& result)
+                        const RunContext& run, TextureCoordinates& result)
 {
   if (Problem problem = checkTextureOptions (options))
     return problem;
@@ -127,18 +124,18 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
             "the triangles are no oriented manifold: an edge has more than two triangles or two of "
             "opposite orientation, or a point has several fans; repair the mesh first"};
 
+  const TextureLimits limits;
   // Charts (discs) and their layouts, on the surface without its noise.
   double unit = 1.0;
   const std::vector<Eigen::Vector3d> places = scaled (positions, triangles, unit);
-  std::vector<ChartLayout> charts =
-      layOutCharts (mesh, places, smoothNoise (mesh, places, limits.smoothing, run),
-                    options.whole_discs, options.largest_stretch, limits, run);
+  std::vector<ChartLayout> charts = layOutCharts (
+      mesh, places, smoothNoise (mesh, places, limits.smoothing, run), options, limits, run);
 
   // All charts in one square, in single precision. Charts of which that flips triangles, such as of
   // sizes that differ by more than its digits, are taken apart.
-  constexpr int ROUNDS = 4;
+  constexpr int ATTEMPTS = 4;
   std::vector<Index> flipped;
-  for (int round = 0; round == 0 || (round < ROUNDS && !flipped.empty ()); ++round) {
+  for (int round = 0; round == 0 || (round < ATTEMPTS && !flipped.empty ()); ++round) {
     std::vector<ChartLayout> kept;
     for (ChartLayout& chart : charts)
       if (chart.triangles.size () == 1 ||
@@ -168,7 +165,7 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   return {};
 }
 
-// The entry point of the texture coordinates: exceptions and callbacks.
+} // namespace
 
 TextureCoordinates
 computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
@@ -181,7 +178,7 @@ computeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
     RunMonitor monitor ({{}, options.progress_callback, options.cancelled_callback}, times);
     const RunContext run (options.threads, &monitor);
     run.beginStage (Stage::CHECK); // the last stage takes the rest of the progress, here all of it
-    problem = makeTextureCoordinates (positions, triangles, options, {}, run, result);
+    problem = makeTextureCoordinates (positions, triangles, options, run, result);
     if (!problem)
       monitor.finish ();
   }

@@ -3,7 +3,6 @@
 // Texture coordinates of a mesh: charts, their layout, the atlas.
 #pragma once
 
-#include "core/problem.h"
 #include "core/run_context.h"
 #include "texture/atlas.h"
 #include "texture/charts.h"
@@ -48,20 +47,10 @@ struct TextureLimits
 /// Cuts a mesh into charts and lays them out, on all threads of the run.
 /// \param mesh an oriented manifold; may have any number of components
 /// \param smooth      positions without noise (smoothNoise)
-/// \param whole_discs components that are discs are not cut, whatever their stretch
-/// \param largest_stretch mean stretch above which a chart is cut (see TextureOptions)
 /// \return the charts, in the order of their first triangles; each has a layout
 std::vector<ChartLayout>
 layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const std::vector<Eigen::Vector3d>& smooth, bool whole_discs, double largest_stretch,
+              const std::vector<Eigen::Vector3d>& smooth, const TextureOptions& options,
               const TextureLimits& limits, const RunContext& run);
-
-/// All steps. Sets everything except status and message.
-/// \return the status and message: INVALID_INDICES or INVALID_OPTION for bad input
-Problem
-makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
-                        const std::vector<Triangle>& triangles, const TextureOptions& options,
-                        const TextureLimits& limits, const RunContext& run,
-                        TextureCoordinates& result);
 
 } // namespace pcl::floater

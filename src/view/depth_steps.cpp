@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -46,16 +45,13 @@ public:
     }
     continueSurfaces ();
     findEdges ();
-    const std::vector<Index> order = orderByDepth ();
     std::vector<std::uint8_t> is_step (view_.triangles.size (), 0);
-    const std::size_t bins = std::max<std::size_t> (1, order.size () / limits_.edges_per_bin);
-    const auto binBegin = [&] (std::size_t b) {
-      return order.begin () + static_cast<std::ptrdiff_t> (b * order.size () / bins);
-    };
+    const std::size_t bins = std::max<std::size_t> (1, edges_.size () / limits_.edges_per_bin);
+    const auto binBegin = [&] (std::size_t b) { return b * edges_.size () / bins; };
     std::vector<double> noises (bins);
     std::vector<std::uint8_t> is_rounded (bins);
     parallelTasks (run_, bins, [&] (std::size_t b) {
-      noises[b] = measureNoise ({binBegin (b), binBegin (b + 1)}, is_rounded[b]);
+      noises[b] = measureNoise (binBegin (b), binBegin (b + 1), is_rounded[b]);
     });
     std::vector<double> usual_noises (bins);
     double farther = std::numeric_limits<double>::infinity (); // least noise, in units of depth
@@ -64,10 +60,10 @@ public:
                                                              1) == is_rounded.end ();
     for (std::size_t b = bins; b-- > 0;) {
       usual_noises[b] = medianAround (noises, b);
-      if (!is_smooth || order.empty ())
+      if (!is_smooth || edges_.empty ())
         continue;
       // Before a background, most edges of near things may be steps.
-      const double depth = static_cast<double> (edges_[*binBegin (b)].depth);
+      const double depth = static_cast<double> (edges_[binBegin (b)].depth);
       usual_noises[b] = std::min (usual_noises[b], limits_.nearer_noise * farther / depth);
       farther = std::min (farther, usual_noises[b] * depth);
     }
@@ -77,10 +73,10 @@ public:
       // A bin between two steps of quantized depths does not show the size of a step.
       const double sharp_noise = std::max (limits_.sharp_noise * noise,
                                            is_rounded[b] != 0 ? limits_.largest_quantum : 0.0);
-      for (auto e = binBegin (b); e != binBegin (b + 1); ++e) {
-        const double unit = unitAt (static_cast<double> (edges_[*e].depth));
-        is_step_edge[*e] =
-            isStep (edges_[*e].edge, limits_.noise * noise * unit, sharp_noise * unit) ? 1 : 0;
+      for (std::size_t e = binBegin (b); e < binBegin (b + 1); ++e) {
+        const double unit = unitAt (static_cast<double> (edges_[e].depth));
+        is_step_edge[e] =
+            isStep (edges_[e].edge, limits_.noise * noise * unit, sharp_noise * unit) ? 1 : 0;
       }
     });
     for (std::size_t e = 0; e < edges_.size (); ++e) {
@@ -95,19 +91,6 @@ public:
   }
 
 private:
-  // The edges by the depth of their nearer ends; stable.
-  std::vector<Index> orderByDepth () const
-  {
-    std::vector<std::pair<float, Index>> keys (edges_.size ());
-    for (Index e = 0; e < keys.size (); ++e)
-      keys[e] = {edges_[e].depth, e};
-    std::sort (keys.begin (), keys.end ());
-    std::vector<Index> order (keys.size ());
-    std::transform (keys.begin (), keys.end (), order.begin (),
-                    [] (const auto& key) { return key.second; });
-    return order;
-  }
-
   static std::size_t numberOf (MeshEdge e) { return std::size_t{3} * e.triangle + e.side; }
 
   void continueSurfaces ()
@@ -175,6 +158,7 @@ private:
     return both;
   }
 
+  // By the depth of their nearer ends.
   void findEdges ()
   {
     edges_.reserve (view_.triangles.size () * 3 / 2 + 3);
@@ -199,6 +183,8 @@ private:
         edge.deviation = static_cast<float> (least);
       }
     });
+    std::stable_sort (edges_.begin (), edges_.end (),
+                      [] (const StepEdge& a, const StepEdge& b) { return a.depth < b.depth; });
   }
 
   // Change of the inverse depth for a relative change of depth.
@@ -216,17 +202,17 @@ private:
   }
 
   // Noise of edges of about the same depth, relative to the depth.
-  double measureNoise (const std::vector<Index>& bin, std::uint8_t& is_rounded) const
+  double measureNoise (std::size_t first, std::size_t last, std::uint8_t& is_rounded) const
   {
     std::vector<float> deviations;
-    for (const Index e : bin)
+    for (std::size_t e = first; e < last; ++e)
       if (std::isfinite (edges_[e].deviation))
         deviations.push_back (edges_[e].deviation);
     if (deviations.empty ())
       return 0.0;
     const auto noise = static_cast<double> (quantile (deviations, limits_.noise_quantile));
     // Inverse depth per relative depth.
-    const double unit = unitAt (static_cast<double> (edges_[bin.front ()].depth));
+    const double unit = unitAt (static_cast<double> (edges_[first].depth));
     const double usual = static_cast<double> (median (deviations));
     is_rounded = usual > limits_.rounding * unit ? 0 : 1;
     if (is_rounded == 0)

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -52,20 +51,14 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
                   std::size_t count, std::size_t size)
 {
   std::vector<RayPatch> patches (count);
-  std::vector<Index> sorted;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
     RayPatch& patch = patches[k];
     patch.assign (1, static_cast<Index> (seed));
-    sorted = patch;
     for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
-      for (const Index q : neighbors.row (patch[i])) {
-        const auto place = std::lower_bound (sorted.begin (), sorted.end (), q);
-        if (patch.size () == size || (place != sorted.end () && *place == q))
-          continue;
-        sorted.insert (place, q);
-        patch.push_back (q);
-      }
+      for (const Index q : neighbors.row (patch[i]))
+        if (patch.size () < size && std::find (patch.begin (), patch.end (), q) == patch.end ())
+          patch.push_back (q);
     const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
     std::stable_sort (patch.begin (), patch.end (),
                       [&] (Index a, Index b) { return distance (a) < distance (b); });
@@ -73,13 +66,28 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
   return patches;
 }
 
-namespace {
-struct PatchEvidence
+std::vector<RayPatch>
+findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+                const EvidenceLimits& limits, const RunContext& run)
 {
-  std::size_t judged = 0, near = 0;
-  double ray_spread = 0.0, row_spread = 0.0, point_spread = 0.0;
-};
+  const std::size_t n = positions.size ();
+  std::vector<Eigen::Vector3d> directions (n);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p)
+      directions[p] = rayTo (positions[p], viewpoint).direction;
+  });
+  const KdTree tree (directions, run, PointOrder::ALONG_CURVE);
+  std::vector<RayPatch> patches (std::min (limits.patches, n));
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    std::vector<Neighbor> found;
+    tree.nearest (directions[(2 * k + 1) * n / (2 * patches.size ())], limits.patch_points, found);
+    for (const Neighbor& neighbor : found)
+      patches[k].push_back (neighbor.point);
+  });
+  return patches;
+}
 
+namespace {
 // Logarithm of the 90 % quantile over the 10 % quantile; 0 for few values.
 double
 spreadOf (std::vector<double>& values)
@@ -92,12 +100,12 @@ spreadOf (std::vector<double>& values)
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }
 
-PatchEvidence
+RayEvidence
 examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
               const Viewpoint& viewpoint, double near_ratio, bool with_rows)
 {
   PatchRays rays (positions, patch, viewpoint);
-  PatchEvidence evidence;
+  RayEvidence evidence;
   std::vector<double> between_rays, between_rows, between_points;
   for (std::size_t i = 0; i < patch.size () / 2; ++i) {
     const PatchRays::Neighbors found = rays.neighborsOf (i, with_rows);
@@ -116,93 +124,31 @@ examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& pat
 
 } // namespace
 
-std::vector<RayPatch>
-findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-                const EvidenceLimits& limits, const RunContext& run)
-{
-  const std::size_t n = positions.size ();
-  std::vector<RayPatch> patches (std::min (limits.patches, n));
-  const std::size_t size = std::min (limits.patch_points, n);
-  std::vector<float> x (n), y (n), z (n); // 1e-7 of a right angle suffices for distances
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const Eigen::Vector3f ray = rayTo (positions[p], viewpoint).direction.cast<float> ();
-      x[p] = ray.x ();
-      y[p] = ray.y ();
-      z[p] = ray.z ();
-    }
-  });
-  parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    const auto seed = (2 * k + 1) * n / (2 * patches.size ());
-    // The smallest distances so far, in twice the capacity, so that sorting costs O(1) each.
-    std::vector<std::pair<float, Index>> nearest;
-    float limit = std::numeric_limits<float>::infinity ();
-    const auto keepSmallest = [&] {
-      if (nearest.size () <= size)
-        return;
-      std::nth_element (nearest.begin (), nearest.begin () + static_cast<std::ptrdiff_t> (size) - 1,
-                        nearest.end ());
-      nearest.resize (size);
-      limit = nearest.back ().first;
-    };
-    // Few rays are that near: skips whole chunks, by vectorized loops.
-    constexpr std::size_t CHUNK = 64;
-    std::array<float, CHUNK> distance{};
-    const float seed_x = x[seed], seed_y = y[seed], seed_z = z[seed];
-    for (std::size_t first = 0; first < n; first += CHUNK) {
-      const std::size_t count = std::min (CHUNK, n - first);
-      for (std::size_t i = 0; i < count; ++i) {
-        const float dx = x[first + i] - seed_x, dy = y[first + i] - seed_y,
-                    dz = z[first + i] - seed_z;
-        distance[i] = dx * dx + dy * dy + dz * dz;
-      }
-      const float longest = limit;
-      int near = 0;
-      for (const float d : distance)
-        near += d <= longest ? 1 : 0;
-      for (std::size_t i = 0; near > 0 && i < count; ++i) {
-        if (distance[i] > limit)
-          continue;
-        nearest.emplace_back (distance[i], static_cast<Index> (first + i));
-        if (nearest.size () == 2 * size)
-          keepSmallest ();
-      }
-    }
-    keepSmallest ();
-    std::sort (nearest.begin (), nearest.end ());
-    for (const auto& entry : nearest)
-      patches[k].push_back (entry.second);
-  });
-  return patches;
-}
-
 RayEvidence
 findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits, const RunContext& run, bool with_rows)
 {
-  std::vector<PatchEvidence> found (patches.size ());
+  std::vector<RayEvidence> found (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
     found[k] = examinePatch (positions, patches[k], viewpoint, limits.near_ratio, with_rows);
   });
-  std::size_t judged = 0, near = 0;
   RayEvidence evidence;
-  for (const PatchEvidence& patch : found) {
-    judged += patch.judged;
-    near += patch.near;
+  for (const RayEvidence& patch : found) {
+    evidence.judged += patch.judged;
+    evidence.near += patch.near;
     evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
     evidence.row_spread += patch.row_spread / static_cast<double> (found.size ());
     evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
   }
-  if (judged > 0)
-    evidence.near_share = static_cast<double> (near) / static_cast<double> (judged);
   return evidence;
 }
 
 bool
 isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
 {
-  return evidence.near_share <= limits.near_share && evidence.point_spread >= limits.least_spread &&
+  return evidence.nearShare () <= limits.near_share &&
+         evidence.point_spread >= limits.least_spread &&
          evidence.ray_spread <= limits.regularity * evidence.point_spread;
 }
 
@@ -332,13 +278,9 @@ bool
 looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits)
 {
-  constexpr std::size_t DIRECTIONS = 200, COMPARED = 2000;
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
-  std::vector<Eigen::Vector3d> directions;
-  for (std::size_t p = 0; p < positions.size (); p += step)
-    directions.push_back (rayTo (positions[p], viewpoint).direction);
+  constexpr std::size_t DIRECTIONS = 200;
   double cosine = 0.0;
-  emptyDirection (directions, DIRECTIONS, cosine);
+  emptyDirection (positions, viewpoint, DIRECTIONS, cosine);
   return cosine > std::cos (limits.all_sides * DEGREE);
 }
 

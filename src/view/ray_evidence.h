@@ -26,11 +26,9 @@ struct RowEvidence
 RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count);
 
-/// Patches of near points around points that are spread evenly over their order. Parallel rays to a
-/// patch are near each other for any direction.
-/// \param neighbors of each point
-/// \param count     of patches
-/// \param size      points of a patch; fewer if there are no more around
+/// Patches around points that are spread evenly over their order, over their neighbours: also across
+/// rows that are far apart. Parallel rays to a patch are near each other for any direction.
+/// \param size points of a patch; fewer if there are no more around
 /// \return the points of each patch, sorted by distance to the first one
 std::vector<RayPatch>
 findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
@@ -90,18 +88,24 @@ struct EvidenceLimits
   double at_sensor = 0.1; ///< of the median depth; nearer points lie on what bears the sensor
 };
 
-/// Evenness of the rays to a cloud.
+/// Evenness of the rays to a patch or a cloud.
 struct RayEvidence
 {
-  double near_share = 1.0;   ///< share of rays that are near another one
+  std::size_t judged = 0;    ///< number of rays
+  std::size_t near = 0;      ///< those that are near another one
   double ray_spread = 0.0;   ///< logarithm of the ratio of large to small distances between
                              ///< neighbouring rays (their 90 and 10 % quantiles); mean of patches
   double row_spread = 0.0;   ///< spread of the distances to the nearest ray across the direction of
                              ///< the nearest: to the next row of a scanner
   double point_spread = 0.0; ///< spread of the distances in space between their points
+
+  double nearShare () const
+  {
+    return judged > 0 ? static_cast<double> (near) / static_cast<double> (judged) : 1.0;
+  }
 };
 
-/// Patches around points that are spread evenly over the order of the points. O(patches * n).
+/// Patches of near rays around points that are spread evenly over their order. O(n).
 std::vector<RayPatch>
 findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run);
@@ -121,7 +125,7 @@ isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits);
 /// Whether the viewpoint explains the density of the points: that of their rays is the same
 /// everywhere, unlike that of the points, also unlike that seen from places beside, and no point
 /// hides others. Also for rays that are locally
-/// uneven, such as rings with lost points. O(patches * (n + points of a patch squared)).
+/// uneven, such as rings with lost points. O(n + patches * points of a patch squared).
 /// \param patches found at the viewpoint
 bool
 explainsDensity (const std::vector<Eigen::Vector3d>& positions,

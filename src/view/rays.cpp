@@ -13,17 +13,21 @@
 
 namespace pcl::floater {
 Eigen::Vector3d
-emptyDirection (const std::vector<Eigen::Vector3d>& directions, std::size_t tries, double& cosine)
+emptyDirection (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+                std::size_t tries, double& cosine)
 {
   constexpr std::size_t COMPARED = 2000;
-  const std::size_t step = std::max<std::size_t> (1, directions.size () / COMPARED);
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
+  std::vector<Eigen::Vector3d> directions;
+  for (std::size_t p = 0; p < positions.size (); p += step)
+    directions.push_back (rayTo (positions[p], viewpoint).direction);
   Eigen::Vector3d best = Eigen::Vector3d::UnitZ ();
   cosine = std::numeric_limits<double>::infinity ();
   for (std::size_t k = 0; k < tries; ++k) {
     const Eigen::Vector3d tried = spiralDirection (k, tries);
     double nearest = -1.0;
-    for (std::size_t p = 0; p < directions.size () && nearest < cosine; p += step)
-      nearest = std::max (nearest, tried.dot (directions[p]));
+    for (std::size_t i = 0; i < directions.size () && nearest < cosine; ++i)
+      nearest = std::max (nearest, tried.dot (directions[i]));
     if (nearest < cosine) {
       cosine = nearest;
       best = tried;
@@ -71,8 +75,9 @@ makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpo
   // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
   constexpr std::size_t TRIES = 2000; // finds cones of 5 degrees: the tear of the plane is small
   double cosine = 0.0;
-  const Eigen::Vector3d pole = viewpoint.is_far ? Eigen::Vector3d (-viewpoint.place)
-                                                : emptyDirection (rays.directions, TRIES, cosine);
+  const Eigen::Vector3d pole = viewpoint.is_far
+                                   ? Eigen::Vector3d (-viewpoint.place)
+                                   : emptyDirection (positions, viewpoint, TRIES, cosine);
   const Eigen::Vector3d x = pole.unitOrthogonal ();
   const Eigen::Vector3d y = pole.cross (x);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {

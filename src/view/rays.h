@@ -34,10 +34,11 @@ Ray
 rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint);
 
 /// A direction in the widest of the cones without rays, of those around evenly spread directions.
-/// \param directions of the rays; some 2000 of them are looked at
+/// \param positions some 2000 of them are looked at
 /// \param[out] cosine of the angle to the nearest ray
 Eigen::Vector3d
-emptyDirection (const std::vector<Eigen::Vector3d>& directions, std::size_t tries, double& cosine);
+emptyDirection (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+                std::size_t tries, double& cosine);
 
 /// The rays to all points.
 struct Rays

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_method.h"
 
-#include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"
 #include "mesh/trimming.h"
-#include "mesh/vertex_stars.h"
 
 #include <algorithm>
 
@@ -15,45 +13,13 @@ namespace {
 // Sorts triangles canonically, since later results depend on their order. Each begins with its
 // smallest corner; sorted by this and the next one, so along the curve of the points.
 TriangleMesh
-inOrder (const TriangleMesh& mesh, const RunContext& run)
+inOrder (TriangleMesh mesh, const RunContext& run)
 {
-  TriangleMesh sorted;
-  sorted.triangle_of.assign (mesh.triangle_of.size (), NONE);
-  const std::size_t count = mesh.triangles.size ();
-  sorted.triangles.resize (count);
-  sorted.neighbors.resize (count);
-  const auto smallest = [&mesh] (Index t) {
-    const Triangle& corners = mesh.triangles[t];
-    return static_cast<std::size_t> (std::min_element (corners.begin (), corners.end ()) -
-                                     corners.begin ());
-  };
-  std::vector<Index> order = orderByPoints (mesh.triangles, mesh.triangle_of.size ());
-  const auto first = [&] (Index t) { return mesh.triangles[t][smallest (t)]; };
-  const auto second = [&] (Index t) { return mesh.triangles[t][(smallest (t) + 1) % 3]; };
-  for (auto begin = order.begin (); begin != order.end ();) {
-    const auto end =
-        std::find_if (begin, order.end (), [&] (Index t) { return first (t) != first (*begin); });
-    std::sort (begin, end, [&] (Index a, Index b) { return second (a) < second (b); });
-    begin = end;
-  }
-  std::vector<Index> place (count);
-  for (Index i = 0; i < count; ++i)
-    place[order[i]] = i;
-  parallelRanges (run, count, [&] (std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index t = order[i];
-      for (std::size_t side = 0; side < 3; ++side) {
-        const std::size_t from = (smallest (t) + side) % 3;
-        const Index across = mesh.neighbors[t][from];
-        sorted.triangles[i][side] = mesh.triangles[t][from];
-        sorted.neighbors[i][side] = across == NONE ? NONE : place[across];
-      }
-    }
-  });
-  for (Index t = 0; t < count; ++t)
-    for (const Index p : sorted.triangles[t])
-      sorted.triangle_of[p] = t;
-  return sorted;
+  for (Triangle& t : mesh.triangles)
+    std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
+  std::sort (mesh.triangles.begin (), mesh.triangles.end ());
+  mesh.connect (mesh.triangle_of.size (), run);
+  return mesh;
 }
 
 // Fills the loops that the policy does not keep. All loops are at a gap or a depth step.
@@ -68,7 +34,7 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   // No point lies beyond any of them: the longest are kept.
   for (BoundaryLoop& loop : loops)
     loop.judgement.empty_length = loop.length;
-  chooseOpenLoops (loops, components.count, settings.holes, 1.0 / points.scale);
+  chooseOpenLoops (loops, components.count, settings.options.holes, 1.0 / points.scale);
   std::vector<Eigen::Vector3f> normals;
   normals.reserve (points.size ());
   for (const Eigen::Vector3d& position : points.positions) {
@@ -76,8 +42,8 @@ closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
         viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (position - viewpoint.place);
     normals.emplace_back (-ray.normalized ().cast<float> ());
   }
-  const TriangleCost cost (points.positions, normals, nullptr, settings.finish.cost);
-  return fillHoles (mesh, loops, points.positions, cost, settings.hole_filling, run);
+  const TriangleCost cost (points.positions, normals, nullptr, settings.surface.finish.cost);
+  return fillHoles (mesh, loops, points.positions, cost, settings.surface.hole_filling, run);
 }
 
 // Whether all triangles around some point of a patch are steps: it may lie off the surface.
@@ -123,20 +89,11 @@ dropShortSteps (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_ga
   }
 }
 
-bool
-hasBoundary (const TriangleMesh& mesh)
-{
-  return std::any_of (mesh.neighbors.begin (), mesh.neighbors.end (), [] (const auto& across) {
-    return std::find (across.begin (), across.end (), NONE) != across.end ();
-  });
-}
-
 // The front of each component: towards the sensor, unless it is far away.
 MeshFacing
 faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
-            const ViewSettings& settings, const RunContext& run)
+            const FinishLimits& finish, FacingHints hints, const RunContext& run)
 {
-  FacingHints hints = settings.facing;
   hints.is_one_view = viewpoint.is_far;
   hints.faces_sensor = !viewpoint.is_far;
   const bool by_view = hints.wanted == Facing::AUTO && hints.normals == nullptr;
@@ -144,8 +101,8 @@ faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
     hints.sensor = viewpoint.place;
   else if (hints.wanted != Facing::VIEWPOINT)
     hints.sensor.reset ();
-  if (!by_view || viewpoint.is_far || !hasBoundary (mesh))
-    return faceOutwards (mesh, points.positions, hints, settings.finish.facing, run);
+  if (!by_view || viewpoint.is_far || boundaryEdges (mesh).empty ())
+    return faceOutwards (mesh, points.positions, hints, finish.facing, run);
   MeshFacing facing; // oriented like the view
   FacingObject& all = facing.objects.emplace_back ();
   all.rule = FacingRule::SENSOR;
@@ -175,7 +132,7 @@ isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimi
     evidence = findRayEvidence (points.positions, patches, viewpoint, round, run);
   };
   look ();
-  if (evidence.near_share > LENIENT * limits.crossing_share)
+  if (evidence.nearShare () > LENIENT * limits.crossing_share)
     return false;
   round = limits;
   look ();
@@ -185,7 +142,7 @@ isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimi
 
 ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
-                 const RunContext& run)
+                 FacingHints hints, const RunContext& run)
 {
   ViewSurface surface;
   TriangleMesh& mesh = surface.mesh;
@@ -208,15 +165,16 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
       surface.is_at_step[p] = 1;
   }
   removeTriangles (mesh, std::move (is_left_out), run);
-  if (settings.remove_outliers)
+  if (settings.options.remove_outliers)
     removeSmallComponents (mesh, settings.limits.smallest_part, run);
 
   run.beginStage (Stage::FLIPS);
-  if (settings.flip_edges)
+  if (settings.options.flip_edges)
     surface.finish.flips = flipInView (mesh, rays, points.positions, settings.limits.flips, run);
-  if (settings.holes.policy != HolePolicy::AUTO)
+  if (settings.options.holes.policy != HolePolicy::AUTO)
     surface.holes_filled = closeHoles (mesh, points, viewpoint, settings, run);
-  surface.finish.facing = faceInView (mesh, points, viewpoint, settings, run);
+  surface.finish.facing =
+      faceInView (mesh, points, viewpoint, settings.surface.finish, std::move (hints), run);
   return surface;
 }
 

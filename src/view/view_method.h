@@ -3,17 +3,12 @@
 // The view method: clouds of one scan, connected as the sensor saw them.
 #pragma once
 
-#include "local/local_geometry.h"
-#include "mesh/finish.h"
-#include "mesh/hole_filling.h"
-#include "mesh/loops.h"
+#include "consensus/consensus_method.h"
 #include "points/points.h"
 #include "view/depth_steps.h"
 #include "view/ray_evidence.h"
 #include "view/view_flips.h"
 #include "view/viewpoint_search.h"
-
-#include <optional>
 
 namespace pcl::floater {
 /// The limits of all steps of the view method.
@@ -44,14 +39,9 @@ struct ViewLimits
 
 struct ViewSettings
 {
-  HoleOptions holes = {};
-  bool flip_edges = true;      ///< choose diagonals by smoothness
-  bool remove_outliers = true; ///< remove small components
-  ViewLimits limits = {};
-  OpenLoopLimits open_loops = {};      ///< for policies of holes other than AUTO
-  HoleFillingLimits hole_filling = {}; ///< see above
-  FinishLimits finish = {};            ///< for such policies, and for closed components
-  FacingHints facing = {};             ///< its sensor is used only if the viewpoint is far away
+  const Options& options;
+  const ViewLimits& limits;
+  const SurfaceLimits& surface; ///< for policies of holes other than AUTO, and closed components
 };
 
 /// Whether the cloud was seen from a viewpoint (see RayEvidence). Stops early if it clearly was
@@ -76,8 +66,9 @@ struct ViewSurface
 /// diagonals. From the sensor, no part of the mesh hides another. The mesh faces the sensor, but
 /// outwards if it is closed, or if the sensor is far away on an unknown side; hints may ask for
 /// another facing. Stages DELAUNAY, HOLES and FLIPS. O(n log n).
+/// \param hints their sensor is used only if the viewpoint is far away
 ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
-                 const RunContext& run);
+                 FacingHints hints, const RunContext& run);
 
 } // namespace pcl::floater

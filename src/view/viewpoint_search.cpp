@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "view/pattern_search.h"
-#include "view/ray_evidence.h"
 
 #include <Eigen/Geometry>
 
@@ -69,32 +68,28 @@ public:
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     if (candidates.front ().cost > evidence_.regularity * candidates[count / 2].cost)
       return {};
-    std::vector<RatedViewpoint> starts;
-    for (const RatedViewpoint& candidate : candidates)
-      if (starts.size () < limits_.by_rows && !isNear (candidate, starts, APART))
-        starts.push_back (candidate);
     // Rays are evenly spaced from the right direction only; from others, less than from those
     // around.
-    RatedViewpoint best = NOT_FOUND;
-    for (const RatedViewpoint& start : starts)
+    std::optional<RatedViewpoint> best;
+    for (const RatedViewpoint& start : keepApart (candidates, APART, limits_.by_rows))
       if (takeBetter (refine (start.viewpoint, step), best))
         break;
-    return placeOf (best);
+    return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
   }
 
   std::optional<Viewpoint> find () const
   {
-    std::vector<RatedViewpoint> descents = bestStarts ();
+    std::vector<RatedViewpoint> descents = startingPlaces ();
+    std::stable_sort (descents.begin (), descents.end (), isCheaper);
+    descents = keepApart (descents, 2.0 * cell (), limits_.starts);
     parallelTasks (run_, descents.size (), [&] (std::size_t k) {
       std::vector<double> angles;
       const auto cost = [&] (const Viewpoint& v) { return areaSpread (samples_, v, angles); };
       descents[k] = patternSearch (descents[k].viewpoint, cell (), SMALLEST_AREA_STEP,
                                    box_.center (), limits_.area_evaluations, cost);
     });
-    std::vector<RatedViewpoint> candidates;
-    for (const RatedViewpoint& found : descents)
-      if (!isNear (found, candidates, 4.0 * SMALLEST_AREA_STEP))
-        candidates.push_back (found);
+    std::vector<RatedViewpoint> candidates =
+        keepApart (descents, 4.0 * SMALLEST_AREA_STEP, descents.size ());
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     const double spread = spreadOfAreas ();
     if (candidates.empty () || candidates.front ().cost > limits_.explained * spread)
@@ -119,13 +114,12 @@ public:
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     candidates.resize (std::min (candidates.size (), limits_.by_rays));
     for (const RatedViewpoint& candidate : candidates) {
-      RatedViewpoint found = NOT_FOUND;
+      std::optional<RatedViewpoint> found;
       if (!takeBetter (refineWithFar (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
           may_be_far_)
         takeBetter (refine (mirrored (candidate.viewpoint)), found);
-      if (const std::optional<Viewpoint> place = placeOf (found))
-        if (isDetermined (*place))
-          return place;
+      if (found && isDetermined (found->viewpoint))
+        return found->viewpoint;
     }
     return {};
   }
@@ -137,23 +131,16 @@ private:
   static constexpr double FARTHER = 0.5;     // of the spread of rays from far away
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
-  inline static const RatedViewpoint NOT_FOUND{std::numeric_limits<double>::infinity (), {}};
-
-  static std::optional<Viewpoint> placeOf (const RatedViewpoint& found)
-  {
-    return found.cost < NOT_FOUND.cost ? std::optional<Viewpoint> (found.viewpoint) : std::nullopt;
-  }
-
   // Accepts a viewpoint with more even rays. Returns whether they are even enough to end the
   // search.
-  bool takeBetter (const std::optional<Viewpoint>& found, RatedViewpoint& best) const
+  bool takeBetter (const std::optional<Viewpoint>& found, std::optional<RatedViewpoint>& best) const
   {
     if (!found)
       return false;
     const double cost =
         costByRays (*found, findRayPatches (positions_, *found, evidence_, run_), run_);
-    if (cost < best.cost)
-      best = {cost, *found};
+    if (!best || cost < best->cost)
+      best = RatedViewpoint{cost, *found};
     return cost < EVEN;
   }
 
@@ -182,34 +169,25 @@ private:
     return a.cost < b.cost;
   }
 
-  static bool isNear (const RatedViewpoint& candidate, const std::vector<RatedViewpoint>& others,
-                      double distance)
+  // The first candidates without those near an earlier one.
+  static std::vector<RatedViewpoint> keepApart (const std::vector<RatedViewpoint>& candidates,
+                                                double distance, std::size_t most)
   {
-    return std::any_of (others.begin (), others.end (), [&] (const RatedViewpoint& other) {
-      return other.viewpoint.is_far == candidate.viewpoint.is_far &&
-             (other.viewpoint.place - candidate.viewpoint.place).norm () < distance;
-    });
+    std::vector<RatedViewpoint> kept;
+    for (const RatedViewpoint& one : candidates)
+      if (kept.size () < most &&
+          std::none_of (kept.begin (), kept.end (), [&] (const RatedViewpoint& other) {
+            return other.viewpoint.is_far == one.viewpoint.is_far &&
+                   (other.viewpoint.place - one.viewpoint.place).norm () < distance;
+          }))
+        kept.push_back (one);
+    return kept;
   }
 
   // Cell size of the grid of viewpoints.
   double cell () const
   {
     return 2.0 * box_.sizes ().maxCoeff () / static_cast<double> (limits_.cells);
-  }
-
-  // The best viewpoints by areas, without those beside a better one.
-  std::vector<RatedViewpoint> bestStarts () const
-  {
-    std::vector<RatedViewpoint> candidates = startingPlaces ();
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    std::vector<RatedViewpoint> starts;
-    for (const RatedViewpoint& candidate : candidates) {
-      if (starts.size () == limits_.starts)
-        break;
-      if (!isNear (candidate, starts, 2.0 * cell ()))
-        starts.push_back (candidate);
-    }
-    return starts;
   }
 
   // Mirror image of a viewpoint at the plane of the samples around it. A scanner low above the
@@ -290,7 +268,7 @@ private:
   bool isHopeless (const RayEvidence& evidence, const EvidenceExcess& excess) const
   {
     return evidence.ray_spread > excess.regularity * evidence_.regularity * evidence.point_spread ||
-           evidence.near_share > excess.near_share * evidence_.near_share;
+           evidence.nearShare () > excess.near_share * evidence_.near_share;
   }
 
   // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead for other

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What must not matter to a result, for every method: threads and blocks, the order of the points, a power of
+// What must not matter to a result, for every method: threads, the order of the points, a power of
 // two, a motion; and cancellation at any moment. A mesh has several ranges of points, so that threads share it.
 #include "reconstruct.h"
 
@@ -146,19 +146,17 @@ expectSame (const Result& result, const Result& expected)
   EXPECT_EQ (a.check.self_intersections, b.check.self_intersections);
 }
 
-TEST_P (Invariants, ThreadsAndBlocksChangeNothing)
+TEST_P (Invariants, ThreadsChangeNothing)
 {
   const Positions points = GetParam ().points (true);
   Options options = GetParam ().options;
   options.threads = 1;
-  options.blocks = 1;
   const Result expected = run (points, options);
   ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
   EXPECT_EQ (expected.report.is_view, std::string (GetParam ().name) == "view");
   for (const int threads : {2, 5}) {
     SCOPED_TRACE (threads);
     options.threads = threads;
-    options.blocks = 11 * threads;
     expectSame (run (points, options), expected);
   }
 }

@@ -213,11 +213,8 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   constexpr int NEAREST = 6; // that localSpacing takes
   const RunContext run (std::max (line.options.threads, 0));
   const Rows all = Rows::all (drawing.positions.size ());
-  drawing.spacing =
-      localSpacing (drawing.positions,
-                    findNearestNeighbors (drawing.positions, all, NEAREST,
-                                          static_cast<std::size_t> (line.options.blocks), run),
-                    all, run);
+  drawing.spacing = localSpacing (
+      drawing.positions, findNearestNeighbors (drawing.positions, all, NEAREST, run), all, run);
   std::vector<float> spacing = drawing.spacing;
   drawing.median_spacing = median (spacing);
   drawing.height = heights (drawing, line.options.threads);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "floater/boundary/boundary.h"
 #include "points/kd_tree.h"
 
@@ -95,7 +96,7 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
   std::vector<std::uint8_t> on_loop (positions.size (), 0);
   for (const Index p : loop)
     on_loop[p] = 1;
-  const KdTree tree (positionsOf (positions, loop), run);
+  const KdTree tree (valuesAt (positions, loop), run);
   struct Insertion
   {
     std::size_t after; // index in the loop

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/disjoint_sets.h"
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "floater/boundary/boundary.h"
 #include "points/kd_tree.h"
 
@@ -88,7 +89,7 @@ joinCandidates (const Positions& positions, const std::vector<float>& spacing,
       add (gap.point, q, sees (q, gap.point) ? limits.mutual_cost : limits.one_sided_cost);
   }
 
-  const KdTree tree (positionsOf (positions, candidates), run);
+  const KdTree tree (valuesAt (positions, candidates), run);
   std::vector<Neighbor> found;
   for (Index p : candidates) {
     progress.next ();

@@ -3,6 +3,7 @@
 #include "core/csr_lists.h"
 #include "core/disjoint_sets.h"
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "floater/boundary/boundary.h"
 #include "points/kd_tree.h"
 
@@ -234,7 +235,7 @@ std::vector<Index>
 orderSegment (const Positions& positions, const std::vector<Index>& segment, const RunContext& run,
               const LoopLimits& limits)
 {
-  const Positions points = positionsOf (positions, segment);
+  const Positions points = valuesAt (positions, segment);
   const std::vector<NeighborEdge> graph = neighborGraph (points, limits.largest_k, run);
   const Index size = static_cast<Index> (points.size ());
   std::vector<Index> shortest;
@@ -264,7 +265,7 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
                        const std::vector<Index>& boundary_points, double tolerance, int k,
                        const RunContext& run)
 {
-  const Positions points = positionsOf (positions, boundary_points);
+  const Positions points = valuesAt (positions, boundary_points);
   const KdTree tree (points, run);
   const std::size_t appended = static_cast<std::size_t> (std::max (k, 0));
   std::vector<std::uint8_t> taken (points.size (), 0);
@@ -322,7 +323,7 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
 {
   if (cluster.size () < 4)
     return {};
-  const Positions points = positionsOf (positions, cluster);
+  const Positions points = valuesAt (positions, cluster);
   std::vector<Index> segment1 = growSegment (points, 0, points.size () / 2 + 1, run, limits);
 
   // Segment 2 begins at the end of segment 1 and takes all other points.
@@ -334,7 +335,7 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
     if (!in_segment1[p])
       segment2.push_back (p);
   const Index segment2_last =
-      growSegment (positionsOf (points, segment2), 0, segment2.size (), run, limits).back ();
+      growSegment (valuesAt (points, segment2), 0, segment2.size (), run, limits).back ();
   std::swap (segment2[segment2_last], segment2.back ());
 
   // The end of segment 2 is the start of segment 1.

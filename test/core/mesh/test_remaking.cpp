@@ -37,7 +37,7 @@ TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
 CsrLists
 neighborsOf (const Positions& positions)
 {
-  return findNearestNeighbors (positions, Rows::all (positions.size ()), 20, 1, 1);
+  return findNearestNeighbors (positions, Rows::all (positions.size ()), 20, 1);
 }
 
 // The meshes of two spheres beside each other, as one.

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -90,11 +91,46 @@ plane (std::size_t count)
   return points;
 }
 
+BlockCutter
+inBlocks (const Positions& positions, std::size_t blocks)
+{
+  const std::vector<BlockCutter::Box> buckets = BlockCutter::makeBuckets (positions, 2);
+  return {positions.size (), BlockCutter::makeGroups (buckets),
+          std::clamp<std::size_t> (blocks, 1, std::max<std::size_t> (1, buckets.size ())),
+          [buckets] (std::size_t first, std::size_t last, std::vector<BlockCutter::Box>& to) {
+            to.insert (to.end (), buckets.data () + first, buckets.data () + last);
+          },
+          [&positions] (Index first, Index last, Positions& to) {
+            to.insert (to.end (), positions.data () + first, positions.data () + last);
+          }};
+}
+
+/// The nearest of some points, ascending, by a search in each block.
+CsrLists
+nearestByBlocks (const Positions& positions, const std::vector<Index>& some, std::size_t blocks)
+{
+  const BlockCutter cutter = inBlocks (positions, blocks);
+  CsrLists lists;
+  lists.offsets.push_back (0);
+  for (std::size_t i = 0; i < cutter.blocks (); ++i) {
+    const std::vector<Index> own (std::lower_bound (some.begin (), some.end (), cutter.first (i)),
+                                  std::lower_bound (some.begin (), some.end (), cutter.last (i)));
+    BlockSearch search (cutter, i, 2);
+    const CsrLists found =
+        findNearestOfBlock (search, Rows::of (own), positions.size (), NEIGHBORS, 2);
+    for (std::size_t r = 0; r < own.size (); ++r) {
+      lists.ids.insert (lists.ids.end (), found.row (r).begin (), found.row (r).end ());
+      lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
+    }
+  }
+  return lists;
+}
+
 /// Points with a neighbour beyond the halo of their block. For these the block has to be cut again.
 std::size_t
 countBeyondTheHalo (const Positions& positions, const CsrLists& neighbors, std::size_t blocks)
 {
-  const BlockCutter cutter (positions, blocks, 1);
+  const BlockCutter cutter = inBlocks (positions, blocks);
   std::size_t count = 0;
   for (std::size_t i = 0; i < cutter.blocks (); ++i) {
     const double halo = cutter.cut (i, {}).halo;
@@ -136,17 +172,27 @@ TEST (NearestNeighbors, DoNotDependOnBlocks)
     const Positions& positions = clouds[cloud];
     const Rows all = Rows::all (positions.size ());
     const CsrLists expected = listsByTryingAll (positions, all, NEIGHBORS);
-    for (const std::size_t blocks : {1U, 2U, 5U, 64U}) {
-      SCOPED_TRACE (testing::Message () << "cloud " << cloud << ", " << blocks << " blocks");
-      expectSame (findNearestNeighbors (positions, all, NEIGHBORS, blocks, 2), expected);
-      for (const std::vector<Index>& some : someOf (positions.size ()))
-        expectSame (findNearestNeighbors (positions, Rows::of (some), NEIGHBORS, blocks, 2),
-                    listsByTryingAll (positions, Rows::of (some), NEIGHBORS));
+    SCOPED_TRACE (cloud);
+    expectSame (findNearestNeighbors (positions, all, NEIGHBORS, 2), expected);
+    for (const std::vector<Index>& some : someOf (positions.size ())) {
+      const CsrLists of_some = listsByTryingAll (positions, Rows::of (some), NEIGHBORS);
+      expectSame (findNearestNeighbors (positions, Rows::of (some), NEIGHBORS, 2), of_some);
+      for (const std::size_t blocks : {2U, 5U, 64U})
+        expectSame (nearestByBlocks (positions, some, blocks), of_some);
     }
     if (cloud == 0) { // so some blocks are cut again
       EXPECT_GT (countBeyondTheHalo (positions, expected, 16), 0U);
     }
   }
+}
+
+NeighborSettings
+inBalls ()
+{
+  NeighborSettings settings;
+  settings.options.kind = Neighborhood::BALL;
+  settings.options.ball_radius = RADIUS;
+  return settings;
 }
 
 TEST (BallNeighbors, AreTheSixNearestAndUpToTwoHundredInABall)
@@ -161,7 +207,7 @@ TEST (BallNeighbors, AreTheSixNearestAndUpToTwoHundredInABall)
   for (const Positions& cloud : {plane (1500), plane (4), crowded}) {
     const Points points = workingPoints (cloud);
     const Rows all = Rows::all (points.size ());
-    const CsrLists balls = findBallNeighbors (points.positions, all, RADIUS, 2);
+    const CsrLists balls = findNeighbors (points, inBalls (), 2);
     expectSame (balls, listsByTryingAll (points.positions, all, 0, RADIUS));
     for (Index p = 0; p < points.size (); ++p)
       lengths.insert (balls.row (p).size ());
@@ -238,32 +284,28 @@ TEST (CallerSearch, FindsTheSameAmongTheWorkingPoints)
     for (const bool knows_radii : {true, false}) {
       BruteForceSearch search (cloud);
       search.knows_radii = knows_radii;
-      CallerSearch caller (points, search);
+      NeighborSettings nearest, balls = inBalls ();
+      nearest.search = balls.search = &search;
+      const Rows all = Rows::all (points.size ());
+      expectSame (findNeighbors (points, nearest, 1),
+                  listsByTryingAll (points.positions, all, NEIGHBORS));
+      expectSame (findNeighbors (points, balls, 2),
+                  listsByTryingAll (points.positions, all, 0, RADIUS));
       std::vector<Index> wanted = points.cloud_index;
       std::sort (wanted.begin (), wanted.end ());
       EXPECT_EQ (search.chosen, wanted);
-      const auto expectFound = [&] (const Rows& rows) {
-        expectSame (searchNearestNeighbors (caller, rows, NEIGHBORS, 1),
-                    listsByTryingAll (points.positions, rows, NEIGHBORS));
-        expectSame (searchBallNeighbors (caller, rows, RADIUS, 2),
-                    listsByTryingAll (points.positions, rows, 0, RADIUS));
-      };
-      expectFound (Rows::all (points.size ()));
-      for (const std::vector<Index>& some : someOf (points.size ()))
-        expectFound (Rows::of (some));
     }
   }
 }
 
-// The k nearest in one block and in several, and balls.
+// The k nearest, and balls.
 std::vector<NeighborSettings>
 allSettings ()
 {
-  NeighborSettings nearest, few, blocks, balls;
+  NeighborSettings nearest, few, balls;
   few.options.k = 6;
-  blocks.blocks = 5;
   balls.options.kind = Neighborhood::BALL_DELAUNAY;
-  return {nearest, few, blocks, balls};
+  return {nearest, few, balls};
 }
 
 // Chooses each point with the same probability, and all points of the cloud from `first_sure` on.

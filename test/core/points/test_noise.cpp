@@ -25,7 +25,7 @@ struct Cloud
 
   explicit Cloud (const Positions& positions)
       : points (samples::workingPoints (positions)),
-        neighbors (findNearestNeighbors (points.positions, Rows::all (points.size ()), 20, 1, 1))
+        neighbors (findNearestNeighbors (points.positions, Rows::all (points.size ()), 20, 1))
   {
   }
 

@@ -141,7 +141,7 @@ outliersOf (const Positions& positions, int k = 20, int threads = 1)
 {
   Points points = samples::workingPoints (positions);
   const CsrLists neighbors =
-      findNearestNeighbors (points.positions, Rows::all (points.size ()), k, 1, threads);
+      findNearestNeighbors (points.positions, Rows::all (points.size ()), k, threads);
   return removePoints (points, findOutliers (points.positions, neighbors, threads));
 }
 

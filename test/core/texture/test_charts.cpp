@@ -208,7 +208,7 @@ TEST (Charts, FacetsAreDiscs)
       facing_cases::makeFacingCase (facing_cases::Family::WINGED_BODY, 3);
   ChartLimits limits;
   limits.facets = 200;
-  const MeshParts facets =
+  const MeshComponents facets =
       growFacets (body.mesh, body.positions, areaVectors (body.mesh, body.positions, 1), limits, 1);
   EXPECT_GT (facets.count, body.mesh.triangles.size () / limits.most_in_facet);
   std::vector<std::vector<Index>> lists (facets.count);

@@ -89,7 +89,7 @@ struct Result
 /// Report::facing_decisions lists uncertain results.
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
-/// on the number of threads, on the number of blocks, or on the order of the points. A surface of
+/// on the number of threads, or on the order of the points. A surface of
 /// 100,000 points takes 4 microseconds and 0.5 kB per point, a disc 10 microseconds and 1.5 kB (two
 /// cores); the factorization of a disc grows a little faster than the number of points.
 /// \param input consumed: its arrays are freed as soon as they have been read

@@ -209,10 +209,8 @@ public:
   void setNumberOfThreads (unsigned int nr_threads = 0);
   unsigned int getNumberOfThreads () const; ///< see setNumberOfThreads()
 
-  /** \brief Number of blocks in which the nearest neighbours are searched, 0 or more; default 0:
-   * one block up to 262,144 points, above that blocks of at most 131,072 points. It changes the
-   * time and the memory of the search only; the result is the same. Discs, balls and a search
-   * method of one's own have one block. */
+  /** \brief Without effect, 0 or more; default 0. For programs that searched the nearest neighbours
+   * in blocks: the search of the whole cloud takes no more time or memory. */
   void setNumberOfBlocks (int blocks = 0);
   int getNumberOfBlocks () const; ///< see setNumberOfBlocks()
 
