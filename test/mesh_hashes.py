@@ -55,7 +55,6 @@ OPTIONS = """
 --open-crossings on
 --neighbors 12
 --sheet-filter off
---blocks 3
 --uv
 --shift auto
 --normals

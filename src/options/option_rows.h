@@ -155,9 +155,6 @@ visitOptions (AnyOptions& options, Visitor&& visit)
   visit (OptionRow{"threads", GENERAL, "setNumberOfThreads", UsedFor::ALL,
                    "threads, 0: one for each core; the result is the same", "j"},
          options.threads, NumberRange{0, NO_LIMIT});
-  visit (OptionRow{"blocks", GENERAL, "setNumberOfBlocks", UsedFor::ALL,
-                   "without effect: the nearest neighbours are searched at once"},
-         options.blocks, NumberRange{0, NO_LIMIT});
   visit (OptionRow{"method", KIND, "setDiscOptions (DiscOptions::tw385 ())", UsedFor::ALL,
                    "tw385: a disc by the method of that report and nothing else: no outliers, "
                    "noise, sheet filter, flips or repair"},

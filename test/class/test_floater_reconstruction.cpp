@@ -314,7 +314,7 @@ TEST_F (FloaterClass, CallsBackAndCanBeCancelled)
   done = 0.0;
   EXPECT_EQ (printed (), "");
   EXPECT_EQ (floater.getStatus (), RunStatus::CANCELLED);
-  floater.setNumberOfBlocks (-1);
+  floater.setKSearch (-1);
   EXPECT_NE (printed (), "");
   pcl::console::setVerbosityLevel (level);
 }

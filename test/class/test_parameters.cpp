@@ -59,7 +59,6 @@ choices ()
           CHOICE (RemoveSelfIntersections, d.remove_self_intersections, false),
           CHOICE (ViewUse, d.view.use, ViewUse::NEVER),
           CHOICE (NumberOfThreads, 0U, 1U),
-          CHOICE (NumberOfBlocks, d.blocks, 2),
           CHOICE (ComputeTextureCoordinates, false, true),
           CHOICE (LargestStretch, TextureOptions ().largest_stretch, 1.5),
           CHOICE (ComputeNormals, false, true),

@@ -356,7 +356,6 @@ decodeOptions (ByteSource& bytes, std::size_t points)
     options.scatter = ScatterPolicy::DROP;
     options.trimming.open_self_intersections = true;
   }
-  options.blocks = (switches & 32U) == 0 ? 0 : static_cast<int> (bytes.below (9));
   if ((switches & 64U) != 0) {
     options.neighbors.kind = decodeEnum (bytes, Neighborhood::BALL);
     options.neighbors.k = static_cast<int> (4 + bytes.below (60));

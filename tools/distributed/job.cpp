@@ -108,8 +108,7 @@ std::string
 parametersText (const Job& job)
 {
   Options options = job.line.options;
-  options.threads = 0; // the result does not depend on these
-  options.blocks = 0;
+  options.threads = 0; // the result does not depend on it
   nlohmann::ordered_json json = optionsJson (options, job.line.use_input_normals);
   json["shift"] = job.line.auto_shift ? nlohmann::ordered_json ("auto") : nlohmann::ordered_json ();
   if (job.line.shift)

@@ -278,7 +278,6 @@ struct Options
                                          ///< needs flip_edges. Not for scans that are connected as
                                          ///< their sensor saw them, nor where noisy points were
                                          ///< projected
-  int blocks = 0;  ///< 0 or more. Without effect: the nearest neighbours are searched at once
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
 
   /// Called when a stage begins, by the thread that called reconstruct ().

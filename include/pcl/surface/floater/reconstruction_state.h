@@ -209,11 +209,6 @@ public:
   void setNumberOfThreads (unsigned int nr_threads = 0);
   unsigned int getNumberOfThreads () const; ///< see setNumberOfThreads()
 
-  /** \brief Without effect, 0 or more; default 0. For programs that searched the nearest neighbours
-   * in blocks: the search of the whole cloud takes no more time or memory. */
-  void setNumberOfBlocks (int blocks = 0);
-  int getNumberOfBlocks () const; ///< see setNumberOfBlocks()
-
   /** \brief Called when a stage of a run begins, by the thread that called reconstruct(); default
    * none. An exception from it ends the run with RunStatus::INTERNAL_ERROR. */
   void setStageCallback (std::function<void (Stage)> callback);
