@@ -272,6 +272,7 @@ flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   constexpr double OF_FOLD = 10.0; // more than the bends of five edges
   constexpr double NEEDLE = 1e-3;  // doubled area over the sum of the squared edges
   constexpr double IMPROVES = 1e-6;
+  constexpr int MOST_PASSES = 12; // few folds change after five
   CrossingTable table (mesh, positions, crossing, run);
   // How far the surface is bent beyond a right angle at an edge, and whether that is a fold.
   const auto bendAt = [&] (Index t, std::uint8_t side) {
@@ -290,7 +291,7 @@ flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                      (positions[b] - positions[c]).squaredNorm () +
                      (positions[c] - positions[a]).squaredNorm ());
   };
-  // Of two neighbouring triangles, if flipping the edge between them lowers the sum of bends.
+  // Flips an edge if that lowers the sum of bends around its two triangles.
   const auto flip = [&] (MeshEdge e) {
     const MeshEdge mate = mesh.mate (e);
     if (mate.triangle == NONE || mesh.hasEdge (mesh.corner (e), mesh.corner (mate)))
@@ -315,7 +316,8 @@ flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     return false;
   };
   std::size_t flips = 0;
-  for (bool has_changed = true; has_changed;) {
+  bool has_changed = true;
+  for (int pass = 0; has_changed && pass < MOST_PASSES; ++pass) {
     has_changed = false;
     for (const auto [t, side] : findFolds (mesh, positions, run)) {
       run.poll ();
