@@ -51,9 +51,7 @@ parseBin (const FileBytes& file, const ReadOptions& /*options*/)
     }
     if (!fits)
       continue;
-    Cloud cloud = makeCloud (std::move (fields), points);
-    cloud.file = file;
-    return cloud;
+    return makeCloud (std::move (fields), points);
   }
   throw ReadError ("it does not hold four floats for each point, x, y, z and intensity, as KITTI's "
                    "files do, nor five, with a ring");
@@ -122,13 +120,17 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
 Cloud
 readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
 {
-  const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
+  const FileBytes file (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
                                              : "the file is empty");
   if (options.columns[0] > 0 && format != parseXyz && format != parsePts)
     throw ReadError ("--columns is for text with a point in each line");
   Cloud cloud = format (file, options);
+  const std::string_view bytes = file.view ();
+  if (const char* const x = cloud.coordinates[0].first.get ();
+      x >= bytes.data () && x < bytes.data () + bytes.size ())
+    cloud.file = file;
   chooseClasses (cloud, options.classes);
   return cloud;
 }

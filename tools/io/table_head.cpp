@@ -93,12 +93,6 @@ columnOf (std::string_view text)
   constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
   if (column.name.rfind (SCALAR, 0) == 0)
     column.name.erase (0, SCALAR.size ());
-  for (std::size_t kind = 0; kind < OTHER; ++kind)
-    for (std::size_t rank = 0; rank < KNOWN[kind].size (); ++rank)
-      if (column.kind == OTHER && isCalled (column.name, KNOWN[kind][rank])) {
-        column.kind = kind;
-        column.rank = rank;
-      }
   return column;
 }
 
@@ -113,17 +107,23 @@ columnsOfHeader (std::string_view line, char separator)
     if (text.empty () || text.back () != ':') // "columns: x y z"
       columns.push_back (columnOf (text));
   // One of each kind, the first of those with the best name; others are fields like any other.
-  std::array<Column*, OTHER> best{};
+  std::array<bool, OTHER> has{};
+  for (std::size_t kind = 0; kind < OTHER; ++kind)
+    for (const std::string_view name : KNOWN[kind]) {
+      const auto found =
+          std::find_if (columns.begin (), columns.end (), [name] (const Column& one) {
+            return one.kind == OTHER && isCalled (one.name, name);
+          });
+      if (found == columns.end () || has[kind])
+        continue;
+      found->kind = kind;
+      has[kind] = true;
+    }
+  const bool has_color = has[RED] && has[RED + 1] && has[RED + 2];
+  const bool has_normal = has[NORMAL_X] && has[NORMAL_X + 1] && has[NORMAL_X + 2];
   for (Column& column : columns)
-    if (column.kind != OTHER && (!best[column.kind] || column.rank < best[column.kind]->rank))
-      best[column.kind] = &column;
-  const auto has = [&best] (std::size_t first) { // all three
-    return best[first] && best[first + 1] && best[first + 2];
-  };
-  for (Column& column : columns)
-    if (column.kind != OTHER &&
-        (&column != best[column.kind] || (column.isColor () && !has (RED)) ||
-         (column.kind > ALPHA && column.kind < INTENSITY && !has (NORMAL_X))))
+    if ((column.isColor () && !has_color) ||
+        (column.kind > ALPHA && column.kind < INTENSITY && !has_normal))
       column.kind = OTHER;
   return columns;
 }

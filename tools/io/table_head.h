@@ -53,7 +53,6 @@ constexpr std::array<std::array<std::string_view, 10>, OTHER> KNOWN{
 struct Column
 {
   std::size_t kind = OTHER;
-  std::size_t rank = 0;   ///< of its name among those of its kind
   std::string name;       ///< of an OTHER
   bool is_number = true;  ///< else it is text, and is skipped
   bool are_bytes = true;  ///< all values are whole numbers from 0 to 255

@@ -3,7 +3,6 @@
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
 #include "heap.h"
-#include "html_report.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "report_json.h"

@@ -14,19 +14,6 @@ constexpr const char* DEGREES =
     "x and y seem to be degrees of longitude and latitude, and z metres: "
     "distances make no sense so";
 
-/// Calls read (), and adds the name of the file to a ReadError.
-template <typename Read>
-auto
-readNamed (const std::filesystem::path& path, Read&& read)
-{
-  try {
-    return read ();
-  }
-  catch (const ReadError& error) {
-    throw ReadError ("cannot read " + inputName (path) + ": " + error.what ());
-  }
-}
-
 /// \param kept_per_point see leastMemory
 /// \throws UsageError if so many points cannot be kept below the limit
 void
