@@ -13,7 +13,10 @@
 
 namespace pcl::floater {
 namespace {
-constexpr double HALO = 1.0; // width, see BlockCutter: neighbours are nearer
+// Widths, see BlockCutter. Nearest neighbours are nearer than one. Most stars look no farther than
+// two; those at boundaries look up to 40 spacings ahead, and are made again where that leaves the
+// block.
+constexpr double HALO = 1.0, PLANE_HALO = 2.0, STAR_HALO = 2.0;
 
 // Writes what a block has found. Without arrays: it has no points.
 void
@@ -22,58 +25,6 @@ put (const StepContext& context, const char* step, std::size_t block,
 {
   context.store.put (blockFile (step, block), writer, context.plan.id);
 }
-
-} // namespace
-
-StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
-                          const RunContext& context)
-    : store (files), plan (of), options (effectiveOptions (line.options)),
-      limits (effectiveLimits ({}, line.options)), run (context)
-{
-}
-
-void
-neighborsStep (const StepContext& context, std::size_t block)
-{
-  StoredCloud cloud (context, POINTS);
-  const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
-  if (first == last)
-    return put (context, "neighbors", block);
-  BlockSearch search (cloud.cutter (), block, context.run, HALO);
-  const CsrLists neighbors =
-      findNearestOfBlock (search, Rows::range (first, last), cloud.ranges ().points (),
-                          context.options.neighbors.k, context.run);
-  ArrayWriter writer;
-  writer.add ("ids", neighbors.ids);
-  put (context, "neighbors", block, writer);
-}
-
-int
-outliersStep (const Job& job, FolderStore& store, const Plan& plan)
-{
-  const StepContext context (store, plan, job.line, job.join_threads);
-  std::vector<Index> outliers;
-  if (context.options.remove_outliers) {
-    const BlockRanges ranges (context.plan, context.plan.points);
-    std::vector<Index> gross_outliers;
-    Points points = readPoints (context.store, POINTS, context.plan, gross_outliers);
-    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (ranges.points ()));
-    const CsrLists neighbors = StoredNeighbors (context, {}, ranges).nearest (all);
-    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
-    if (!outliers.empty ()) {
-      removePoints (points, outliers);
-      writePoints (context.store, POINTS_LEFT, context.plan.id, points, gross_outliers,
-                   context.run);
-    }
-  }
-  ArrayWriter writer;
-  writer.add ("outliers", outliers);
-  store.put (OUTLIERS, writer, plan.id);
-  return EXIT_OK;
-}
-
-namespace {
-constexpr double PLANE_HALO = 2.0; // width, see BlockCutter
 
 void
 appendRow (const Row& row, CsrLists& all)
@@ -152,7 +103,79 @@ takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& clou
   } while (search.widen ());
 }
 
+void
+appendStar (const Stars& from, std::size_t row, Stars& to)
+{
+  appendRow (from.neighbors.row (row), to.neighbors);
+  appendRow (from.far_neighbors.row (row), to.far_neighbors);
+  to.open.push_back (from.open[row]);
+  to.normals.push_back (from.normals[row]);
+  to.reach.push_back (from.reach[row]);
+}
+
+// Puts the stars of some of the own points in place of those that they had, if any.
+void
+replaceStars (const std::vector<Index>& points, const Stars& more, const std::vector<Index>& own,
+              Stars& all)
+{
+  Stars merged;
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < own.size (); ++row)
+    if (next < points.size () && points[next] == own[row])
+      appendStar (more, next++, merged);
+    else
+      appendStar (all, row, merged);
+  all = std::move (merged);
+}
+
 } // namespace
+
+StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
+                          const RunContext& context)
+    : store (files), plan (of), options (effectiveOptions (line.options)),
+      limits (effectiveLimits ({}, line.options)), run (context)
+{
+}
+
+void
+neighborsStep (const StepContext& context, std::size_t block)
+{
+  StoredCloud cloud (context, POINTS);
+  const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
+  if (first == last)
+    return put (context, "neighbors", block);
+  BlockSearch search (cloud.cutter (), block, context.run, HALO);
+  const CsrLists neighbors =
+      findNearestOfBlock (search, Rows::range (first, last), cloud.ranges ().points (),
+                          context.options.neighbors.k, context.run);
+  ArrayWriter writer;
+  writer.add ("ids", neighbors.ids);
+  put (context, "neighbors", block, writer);
+}
+
+int
+outliersStep (const Job& job, FolderStore& store, const Plan& plan)
+{
+  const StepContext context (store, plan, job.line, job.join_threads);
+  std::vector<Index> outliers;
+  if (context.options.remove_outliers) {
+    const BlockRanges ranges (context.plan, context.plan.points);
+    std::vector<Index> gross_outliers;
+    Points points = readPoints (context.store, POINTS, context.plan, gross_outliers);
+    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (ranges.points ()));
+    const CsrLists neighbors = StoredNeighbors (context, {}, ranges).nearest (all);
+    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
+    if (!outliers.empty ()) {
+      removePoints (points, outliers);
+      writePoints (context.store, POINTS_LEFT, context.plan.id, points, gross_outliers,
+                   context.run);
+    }
+  }
+  ArrayWriter writer;
+  writer.add ("outliers", outliers);
+  store.put (OUTLIERS, writer, plan.id);
+  return EXIT_OK;
+}
 
 void
 planesStep (const StepContext& context, std::size_t block)
@@ -218,38 +241,6 @@ planesStep (const StepContext& context, std::size_t block)
   writer.add ("normals", normals);
   put (context, "planes", block, writer);
 }
-
-namespace {
-// Width, see BlockCutter. Most stars look no farther than that; those at boundaries look up to 40
-// spacings ahead, and are made again where that leaves the block.
-constexpr double STAR_HALO = 2.0;
-
-void
-appendStar (const Stars& from, std::size_t row, Stars& to)
-{
-  appendRow (from.neighbors.row (row), to.neighbors);
-  appendRow (from.far_neighbors.row (row), to.far_neighbors);
-  to.open.push_back (from.open[row]);
-  to.normals.push_back (from.normals[row]);
-  to.reach.push_back (from.reach[row]);
-}
-
-// Puts the stars of some of the own points in place of those that they had, if any.
-void
-replaceStars (const std::vector<Index>& points, const Stars& more, const std::vector<Index>& own,
-              Stars& all)
-{
-  Stars merged;
-  std::size_t next = 0;
-  for (std::size_t row = 0; row < own.size (); ++row)
-    if (next < points.size () && points[next] == own[row])
-      appendStar (more, next++, merged);
-    else
-      appendStar (all, row, merged);
-  all = std::move (merged);
-}
-
-} // namespace
 
 void
 starsStep (const StepContext& context, std::size_t block)

@@ -28,7 +28,8 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
   all.ids.reserve (entries);
   ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
     ArrayFile& its = file (block);
-    const auto offsets = its.read<Index> (array + ".offsets", first, last + std::size_t{1});
+    std::vector<Index> offsets;
+    its.append (array + ".offsets", first, last + std::size_t{1}, offsets);
     its.require (std::is_sorted (offsets.begin (), offsets.end ()));
     const std::size_t before = all.ids.size ();
     requireListed (before + (offsets.back () - offsets.front ()));

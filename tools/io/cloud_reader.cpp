@@ -57,17 +57,6 @@ parseBin (const FileBytes& file, const ReadOptions& /*options*/)
                    "files do, nor five, with a ring");
 }
 
-Cloud
-readCloud (const std::filesystem::path& path, const ReadOptions& options)
-{
-  const CloudFormat format = cloudFormatOf (path);
-  requireReadable (path);
-  if (!format)
-    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
-                     CLOUD_EXTENSIONS);
-  return readCloud (path, format, options);
-}
-
 namespace {
 /// Leaves out the points of other classes than those, by the field `classification`; by default,
 /// those of low and high noise (7 and 18) of LAS. Always those of the field `withheld`.
@@ -118,8 +107,15 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
 } // namespace
 
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
+readCloud (const std::filesystem::path& path, const ReadOptions& options, CloudFormat format)
 {
+  if (format == nullptr)
+    format = cloudFormatOf (path);
+  if (format == nullptr) {
+    requireReadable (path);
+    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
+                     CLOUD_EXTENSIONS);
+  }
   const FileBytes file (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"

@@ -165,13 +165,10 @@ cloudFormatOf (const std::filesystem::path& path);
 
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input
-/// \throws ReadError if the file is not a complete and valid cloud
+/// \param format nullptr: that which the extension tells
+/// \throws ReadError if the file is not a complete and valid cloud, or the extension is unknown
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options = {});
-
-/// The same, in the format that the extension tells.
-/// \throws ReadError if the extension is unknown
-Cloud
-readCloud (const std::filesystem::path& path, const ReadOptions& options = {});
+readCloud (const std::filesystem::path& path, const ReadOptions& options = {},
+           CloudFormat format = nullptr);
 
 } // namespace pcl::floater

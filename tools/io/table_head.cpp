@@ -7,15 +7,6 @@
 #include <limits>
 
 namespace pcl::floater {
-std::string
-quoted (std::string_view line, std::size_t characters)
-{
-  std::string text;
-  for (const char c : line.substr (0, characters))
-    text += c >= ' ' && c <= '~' ? c : '?';
-  return "'" + text + (line.size () > characters ? "..." : "") + "'";
-}
-
 namespace {
 std::string_view
 trim (std::string_view text)
@@ -70,6 +61,33 @@ withoutUnit (std::string_view name)
     if (name.substr (at) == unit)
       return name.substr (0, at);
   return name;
+}
+
+std::optional<std::string_view>
+commentText (std::string_view line)
+{
+  line = trim (line);
+  for (const std::string_view mark : {"#", "//", "%"})
+    if (line.substr (0, mark.size ()) == mark) {
+      while (!line.empty () &&
+             (line.front () == mark.front () || TextScanner::isBlank (line.front ())))
+        line.remove_prefix (1);
+      return line;
+    }
+  return std::nullopt;
+}
+
+bool
+isBlockMark (std::string_view line)
+{
+  return isWord (trim (line), "begin") || isWord (trim (line), "end");
+}
+
+std::optional<std::uint64_t>
+countOf (std::string_view line)
+{
+  std::uint64_t count = 0;
+  return parseNumber (trim (line), count) ? std::optional (count) : std::nullopt;
 }
 
 namespace {
@@ -146,36 +164,6 @@ namedColumns (std::string_view line)
   return columns;
 }
 
-} // namespace
-
-std::optional<std::string_view>
-commentText (std::string_view line)
-{
-  line = trim (line);
-  for (const std::string_view mark : {"#", "//", "%"})
-    if (line.substr (0, mark.size ()) == mark) {
-      while (!line.empty () &&
-             (line.front () == mark.front () || TextScanner::isBlank (line.front ())))
-        line.remove_prefix (1);
-      return line;
-    }
-  return std::nullopt;
-}
-
-bool
-isBlockMark (std::string_view line)
-{
-  return isWord (trim (line), "begin") || isWord (trim (line), "end");
-}
-
-std::optional<std::uint64_t>
-countOf (std::string_view line)
-{
-  std::uint64_t count = 0;
-  return parseNumber (trim (line), count) ? std::optional (count) : std::nullopt;
-}
-
-namespace {
 /// Whether words are a point with these columns. Marks the columns that are no numbers.
 bool
 isPoint (const Words& words, const ColumnSeparator& separator, std::vector<Column>& columns)

@@ -74,10 +74,6 @@ struct TableHead
   std::string_view last_line; ///< the last of them, which may have been names
 };
 
-/// The beginning of a line in a message, without what is not printable.
-std::string
-quoted (std::string_view line, std::size_t characters = 40);
-
 /// Cuts a line into columns, without blanks and quotes around them. An empty last one is left out.
 /// \return whether it was
 bool

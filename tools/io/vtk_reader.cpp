@@ -5,8 +5,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t LONGEST_QUOTE = 40; // of a word in a message
-
 ScalarType
 vtkType (std::string_view name)
 {
@@ -17,8 +15,8 @@ vtkType (std::string_view name)
   if (const auto type =
           findType ([name] (const TypeNames& names, ScalarType) { return name == names.vtk; }))
     return *type;
-  throw ReadError ("it has coordinates or polygons of the type '" +
-                   std::string (name.substr (0, LONGEST_QUOTE)) + "', which cannot be read");
+  throw ReadError ("it has coordinates or polygons of the type " + quoted (name) +
+                   ", which cannot be read");
 }
 
 /// Finds sections by their names, so that what is between them need not be understood.
@@ -165,8 +163,8 @@ private:
     T result;
     const std::string_view text = word ();
     if (!parseNumber (text, result))
-      throw ReadError ("in its " + section_ + ", '" + std::string (text.substr (0, LONGEST_QUOTE)) +
-                       "' is not a number of the right type");
+      throw ReadError ("in its " + section_ + ", " + quoted (text) +
+                       " is not a number of the right type");
     return result;
   }
 

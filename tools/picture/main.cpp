@@ -10,6 +10,29 @@
 #include <utility>
 #include <vector>
 
+using pcl::floater::ColourImage;
+
+/// A checkerboard of 32 x 32 squares, of another colour in each of 8 x 8 fields: shows stretch, and
+/// what lies where.
+static ColourImage
+makeCheckerboard ()
+{
+  constexpr std::size_t SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
+  constexpr std::size_t SIDE = SQUARES * PIXELS, FIELD = SIDE / FIELDS;
+  ColourImage image{SIDE, SIDE, {}};
+  for (std::size_t row = 0; row < SIDE; ++row)
+    for (std::size_t x = 0; x < SIDE; ++x) {
+      const std::size_t y = SIDE - 1 - row, column = x / FIELD, line = y / FIELD; // of fields
+      const double right = static_cast<double> (column) / (FIELDS - 1);
+      const double up = static_cast<double> (line) / (FIELDS - 1);
+      const double shade = 255.0 * ((x / PIXELS + y / PIXELS) % 2 != 0 ? 0.45 : 1.0);
+      image.pixels.push_back ({static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
+                               static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
+                               static_cast<std::uint8_t> (shade * (1.0 - 0.25 * (right + up)))});
+    }
+  return image;
+}
+
 int
 main (int argc, char** argv)
 {

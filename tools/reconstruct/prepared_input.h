@@ -37,11 +37,6 @@ Input
 prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures,
               double kept_per_point = KEPT_PER_POINT);
 
-/// Whether to write 32-bit floats: unless doubles are asked for, or floats would put corners of a
-/// triangle together, of which a warning tells.
-bool
-writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud);
-
 /// Gives the cloud the fields nx, ny and nz of 32-bit floats, with the normals of the vertices of
 /// the mesh (see vertexNormals ()), in place of those that it has. All points must be left.
 void
