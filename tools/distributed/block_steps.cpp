@@ -13,7 +13,10 @@
 
 namespace pcl::floater {
 namespace {
-constexpr double HALO = 1.0; // width, see BlockCutter: neighbours are nearer
+// Widths, see BlockCutter. Nearest neighbours are nearer than one. Most stars look no farther than
+// two; those at boundaries look up to 40 spacings ahead, and are made again where that leaves the
+// block.
+constexpr double HALO = 1.0, PLANE_HALO = 2.0, STAR_HALO = 2.0;
 
 // Writes what a block has found. Without arrays: it has no points.
 void
@@ -21,6 +24,108 @@ put (const StepContext& context, const char* step, std::size_t block,
      const ArrayWriter& writer = {})
 {
   context.store.put (blockFile (step, block), writer, context.plan.id);
+}
+
+void
+appendRow (const Row& row, CsrLists& all)
+{
+  if (all.offsets.empty ())
+    all.offsets.push_back (0);
+  all.ids.insert (all.ids.end (), row.begin (), row.end ());
+  all.offsets.push_back (static_cast<Index> (all.ids.size ()));
+}
+
+/// Replaces points by their places in a block; NONE if they are not in it.
+void
+toPlaces (const PointBlock& block, std::vector<Index>& points)
+{
+  const auto isAt = [&block] (Index place, Index point) {
+    return place < block.points.size () && block.points[place] == point;
+  };
+  Index place = 0; // of the last one
+  for (Index& point : points) {
+    place += point - block.points[place]; // mostly, all points between are in the block
+    if (!isAt (place, point))
+      place = block.placeOf (point);
+    const bool is_there = isAt (place, point);
+    point = is_there ? place : NONE;
+    place = is_there ? place : 0;
+  }
+}
+
+/// Lists of places for all points of a block, of lists of points of some. Those of the others are
+/// empty.
+/// \param rows whose lists are given, as points, ascending; all in the block
+CsrLists
+toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists)
+{
+  CsrLists places;
+  places.offsets.assign (block.points.size () + 1, 0);
+  for (std::size_t i = 0; i < rows.size (); ++i)
+    places.offsets[block.placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
+  sumRowLengths (places.offsets);
+  places.ids = std::move (lists.ids);
+  toPlaces (block, places.ids);
+  return places;
+}
+
+void
+toPoints (const PointBlock& block, std::vector<Index>& places)
+{
+  for (Index& place : places)
+    place = block.points[place];
+}
+
+/// Widens a block until all points of these lists are in it.
+/// \param rows  own points, ascending
+/// \param lists of these
+void
+takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
+        BlockSearch& search)
+{
+  do {
+    const PointBlock& block = search.block ();
+    for (std::size_t i = 0; i < rows.size (); ++i) {
+      std::vector<Index> missing;
+      for (const Index q : lists.row (i))
+        if ((q < rows.front () || q > rows.back ()) &&
+            !std::binary_search (block.points.begin (), block.points.end (), q))
+          missing.push_back (q);
+      if (missing.empty ())
+        continue;
+      sortUnique (missing);
+      const Eigen::Vector3d& here = block.positions[block.placeOf (rows[i])];
+      double farthest = 0.0;
+      for (const Eigen::Vector3d& there : cloud.gather (missing))
+        farthest = std::max (farthest, (there - here).norm ());
+      search.watch ().looked (here, farthest);
+    }
+  } while (search.widen ());
+}
+
+void
+appendStar (const Stars& from, std::size_t row, Stars& to)
+{
+  appendRow (from.neighbors.row (row), to.neighbors);
+  appendRow (from.far_neighbors.row (row), to.far_neighbors);
+  to.open.push_back (from.open[row]);
+  to.normals.push_back (from.normals[row]);
+  to.reach.push_back (from.reach[row]);
+}
+
+// Puts the stars of some of the own points in place of those that they had, if any.
+void
+replaceStars (const std::vector<Index>& points, const Stars& more, const std::vector<Index>& own,
+              Stars& all)
+{
+  Stars merged;
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < own.size (); ++row)
+    if (next < points.size () && points[next] == own[row])
+      appendStar (more, next++, merged);
+    else
+      appendStar (all, row, merged);
+  all = std::move (merged);
 }
 
 } // namespace
@@ -71,10 +176,6 @@ outliersStep (const Job& job, FolderStore& store, const Plan& plan)
   store.put (OUTLIERS, writer, plan.id);
   return EXIT_OK;
 }
-
-namespace {
-constexpr double PLANE_HALO = 2.0; // width, see BlockCutter
-} // namespace
 
 void
 planesStep (const StepContext& context, std::size_t block)
@@ -141,38 +242,6 @@ planesStep (const StepContext& context, std::size_t block)
   put (context, "planes", block, writer);
 }
 
-namespace {
-// Width, see BlockCutter. Most stars look no farther than that; those at boundaries look up to 40
-// spacings ahead, and are made again where that leaves the block.
-constexpr double STAR_HALO = 2.0;
-
-void
-appendStar (const Stars& from, std::size_t row, Stars& to)
-{
-  appendRow (from.neighbors.row (row), to.neighbors);
-  appendRow (from.far_neighbors.row (row), to.far_neighbors);
-  to.open.push_back (from.open[row]);
-  to.normals.push_back (from.normals[row]);
-  to.reach.push_back (from.reach[row]);
-}
-
-// Puts the stars of some points in place of those that they had.
-// \param first the point of the first star of `all`
-void
-replaceStars (const std::vector<Index>& points, const Stars& more, Index first, Stars& all)
-{
-  Stars merged;
-  std::size_t next = 0;
-  for (std::size_t row = 0; row < all.open.size (); ++row)
-    if (next < points.size () && points[next] == first + row)
-      appendStar (more, next++, merged);
-    else
-      appendStar (all, row, merged);
-  all = std::move (merged);
-}
-
-} // namespace
-
 void
 starsStep (const StepContext& context, std::size_t block)
 {
@@ -197,9 +266,9 @@ starsStep (const StepContext& context, std::size_t block)
 
   BlockSearch search (cloud.cutter (), block, context.run, STAR_HALO);
   Stars all;
-  std::vector<Index> left; // points whose stars have to be made again
+  std::vector<Index> left = own; // points whose stars have to be made, at first or again
   std::vector<AreaSample> samples;
-  bool is_first = true, are_sampled = false;
+  bool are_sampled = false;
   takeIn (own, all_lists, cloud, search);
   do {
     const PointBlock& local = search.block ();
@@ -217,20 +286,14 @@ starsStep (const StepContext& context, std::size_t block)
     const BeyondNeighbors beyond{search.tree (), spacing, beside};
     std::vector<Index> left_places = left;
     toPlaces (local, left_places);
-    const Rows rows =
-        is_first ? Rows::range (own_first, search.ownLast ()) : Rows::of (left_places);
-    const Stars begun =
-        makeStars (positions, neighbors, normals, rows, settings, context.run, &beyond);
+    const Stars begun = makeStars (positions, neighbors, normals, Rows::of (left_places), settings,
+                                   context.run, &beyond);
     Stars made;
-    for (std::size_t i = 0; i < rows.size (); ++i)
-      appendStar (begun, rows[i], made);
+    for (const Index place : left_places)
+      appendStar (begun, place, made);
     toPoints (local, made.neighbors.ids);
     toPoints (local, made.far_neighbors.ids);
-    if (is_first)
-      all = made;
-    else
-      replaceStars (left, made, first, all);
-    is_first = false;
+    replaceStars (left, made, own, all);
     left = search.left ();
     if (!are_sampled) {
       search.hasLeft ();

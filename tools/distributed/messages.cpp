@@ -6,22 +6,28 @@
 #include <mpi.h>
 
 #include <atomic>
+#include <chrono>
 #include <exception>
+#include <future>
+#include <memory>
 #include <thread>
 
 namespace pcl::floater {
+namespace {
+/// Waits longer each time, so that a quick answer comes quickly and a late one costs nothing.
 void
-Patience::wait ()
+waitAgain (int& waits)
 {
-  constexpr int AT_FIRST = 200;
-  constexpr std::chrono::microseconds LONGEST{2000};
-  if (++waits_ <= AT_FIRST) {
+  constexpr int AT_FIRST = 200, MOST = 300;
+  constexpr std::chrono::microseconds STEP{20};
+  waits = std::min (waits + 1, MOST);
+  if (waits <= AT_FIRST)
     std::this_thread::yield ();
-    return;
-  }
-  std::this_thread::sleep_for (sleep_);
-  sleep_ = std::min (2 * sleep_, LONGEST);
+  else
+    std::this_thread::sleep_for ((waits - AT_FIRST) * STEP);
 }
+
+} // namespace
 
 Processes::Processes ()
 {
@@ -49,8 +55,7 @@ Processes::pass (bool sends, int other, void* bytes, std::size_t size)
     else
       MPI_Irecv (static_cast<char*> (bytes) + done, count, MPI_BYTE, other, 0, MPI_COMM_WORLD,
                  &request);
-    Patience patience;
-    for (int is_done = 0;; patience.wait ()) {
+    for (int is_done = 0, waits = 0;; waitAgain (waits)) {
       MPI_Test (&request, &is_done, MPI_STATUS_IGNORE);
       if (is_done != 0)
         break;
@@ -116,10 +121,10 @@ Dealer::serve ()
 {
   const std::optional<int> from = processes_.sender ();
   if (!from) {
-    patience_.wait ();
+    waitAgain (waits_);
     return false;
   }
-  patience_ = {};
+  waits_ = 0;
   const Message message = processes_.receive (*from);
   if (message.topic == Topic::FAIL)
     throw ToolError (static_cast<int> (message.number), message.text);
@@ -127,8 +132,14 @@ Dealer::serve ()
     idle_.insert (*from);
   else if (message.topic == Topic::READ)
     processes_.send (*from, answerTo (message));
-  else if (message.topic == Topic::PUT)
-    write (*from, message.text);
+  else if (message.topic == Topic::PUT) {
+    // Also if it fails: the other process waits.
+    const std::shared_ptr<void> answering (nullptr, [&] (void*) { processes_.send (*from, {}); });
+    const std::size_t end = message.text.find ('\n');
+    folder_.put (message.text.substr (0, end), [&] (const TakeBytes& take) {
+      take (std::string_view (message.text).substr (end + 1));
+    });
+  }
   return message.topic == Topic::DONE;
 }
 
@@ -153,41 +164,23 @@ Dealer::answerTo (const Message& wanted)
 }
 
 void
-Dealer::write (int process, const std::string& file)
-{
-  std::exception_ptr error;
-  try {
-    const std::size_t end = file.find ('\n');
-    folder_.put (file.substr (0, end),
-                 [&] (const TakeBytes& take) { take (std::string_view (file).substr (end + 1)); });
-  }
-  catch (...) {
-    error = std::current_exception ();
-  }
-  processes_.send (process, {});
-  if (error)
-    std::rethrow_exception (error);
-}
-
-void
 Dealer::run (const StepContext& context, const Step& step, const std::vector<std::size_t>& blocks)
 {
   std::atomic<std::size_t> next{0}, finished{0};
   std::atomic<bool> has_failed{false};
-  std::exception_ptr error, own_error;
   // Of those that are left, if there are any and nothing has failed.
   const auto take = [&] () -> std::optional<std::size_t> {
     const std::size_t place = has_failed ? blocks.size () : next++;
     return place < blocks.size () ? std::optional (blocks[place]) : std::nullopt;
   };
-  std::thread own ([&] {
+  std::future<void> own = std::async (std::launch::async, [&] {
     try {
       for (auto block = take (); block; block = take (), ++finished)
         step.of_block (context, *block);
     }
     catch (...) {
-      own_error = std::current_exception ();
       has_failed = true;
+      throw;
     }
   });
   try {
@@ -199,14 +192,11 @@ Dealer::run (const StepContext& context, const Step& step, const std::vector<std
     }
   }
   catch (...) {
-    error = std::current_exception ();
     has_failed = true; // ends the own thread
+    throw;
   }
-  own.join ();
   sources_.clear (); // a file that is removed takes room until it is closed
-  for (const std::exception_ptr& failure : {error, own_error})
-    if (failure)
-      std::rethrow_exception (failure);
+  own.get ();
 }
 
 void

@@ -5,7 +5,6 @@
 
 #include "block_steps.h"
 
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -78,17 +77,6 @@ private:
   Processes& processes_;
 };
 
-/// Sleeps longer and longer, so that a quick answer comes quickly and a late one costs nothing.
-class Patience
-{
-public:
-  void wait ();
-
-private:
-  int waits_ = 0;
-  std::chrono::microseconds sleep_{20};
-};
-
 /// Process 0 of several. It has two threads: one answers the others, one works on blocks.
 class Dealer
 {
@@ -107,13 +95,12 @@ private:
   bool serve ();
 
   Message answerTo (const Message& wanted);
-  void write (int process, const std::string& file);
 
   Processes& processes_;
   FolderStore& folder_;
   std::set<int> idle_;
   std::map<std::string, ByteSource> sources_;
-  Patience patience_;
+  int waits_ = 0; // since the last message
 };
 
 } // namespace pcl::floater

@@ -121,8 +121,8 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
     else
       merged.warnings.push_back ("the field '" + field.name +
                                  "' was left out: not all files have it with the same type");
-  allocateRows (allFields (merged), merged.rows);
-  std::vector<std::string> warnings; // before those of the fields
+  char* to = allocateRows (allFields (merged), merged.rows).get (); // which the fields keep
+  std::vector<std::string> warnings;                                // before those of the fields
   for (std::size_t c = 0; c < clouds.size (); ++c) {
     const Cloud& cloud = clouds[c];
     const std::string named = "'" + files[c].string () + "': ";
@@ -136,14 +136,19 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
       std::copy (cloud.left_out.begin (), cloud.left_out.end (),
                  merged.left_out.begin () + static_cast<std::ptrdiff_t> (firsts[c]));
     }
-    for (std::size_t axis = 0; axis < 3;
-         ++axis) // as they are meant and not as they are in the file
-      setValues<double> (merged.coordinates[axis], firsts[c], cloud.rows,
-                         [&] (std::size_t row) { return cloud.coordinates[axis].scaled (row); });
+    std::vector<const Field*> fields;
     for (const Field& field : merged.fields)
-      copyValues (
-          *cloud.find (field.name), cloud.rows, [] (std::size_t row) { return row; }, field,
-          firsts[c]);
+      fields.push_back (cloud.find (field.name));
+    for (std::size_t row = 0; row < cloud.rows; ++row) {
+      for (const Field& field : cloud.coordinates) {
+        const double coordinate = field.scaled (row); // as it is meant and not as it is in the file
+        to = std::copy_n (reinterpret_cast<const char*> (&coordinate), sizeof coordinate, to);
+      }
+      for (const Field* field : fields)
+        to = putValues (*field, to, [&] (auto tag, std::size_t value) {
+          return field->value<decltype (tag)> (row, value);
+        });
+    }
   }
   merged.warnings.insert (merged.warnings.begin (), warnings.begin (), warnings.end ());
   return merged;

@@ -174,7 +174,6 @@ ArrayFile::fillBuffer (const ArrayEntry& array, std::uint64_t at, std::uint64_t 
 void
 ArrayFile::readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes)
 {
-  require (first <= last && last <= array.count);
   const std::uint64_t end = last * array.element;
   for (std::uint64_t at = first * array.element, count = 0; at < end; at += count) {
     if (buffer_of_ != &array || at < buffer_at_ || at >= buffer_at_ + buffer_.size ())

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -74,8 +73,6 @@ private:
 class ArrayFile
 {
 public:
-  static constexpr std::size_t ALL = std::numeric_limits<std::size_t>::max ();
-
   /// \param name for messages
   /// \param plan of which the arrays have to be a part
   /// \throws WorkError if it is no such file, has another version, is truncated, or is of another
@@ -84,30 +81,23 @@ public:
 
   std::size_t count (const std::string& array) const { return find (array).count; }
 
-  /// Reads values from `first` to before `last`.
-  template <typename T>
-  void read (const std::string& array, std::size_t first, std::size_t last, T* values)
-  {
-    const ArrayEntry& entry = find (array);
-    require (entry.element == sizeof (T));
-    readBytes (entry, first, last, reinterpret_cast<char*> (values));
-  }
-
+  /// Appends values from `first` to before `last`.
   template <typename T>
   void append (const std::string& array, std::size_t first, std::size_t last,
                std::vector<T>& values)
   {
-    require (first <= last && last <= count (array));
+    const ArrayEntry& entry = find (array);
+    require (entry.element == sizeof (T) && first <= last && last <= entry.count);
     const std::size_t before = values.size ();
     values.resize (before + last - first);
-    read (array, first, last, values.data () + before);
+    readBytes (entry, first, last, reinterpret_cast<char*> (values.data () + before));
   }
 
   template <typename T>
-  std::vector<T> read (const std::string& array, std::size_t first = 0, std::size_t last = ALL)
+  std::vector<T> read (const std::string& array)
   {
     std::vector<T> values;
-    append (array, first, last == ALL ? count (array) : last, values);
+    append (array, 0, count (array), values);
     return values;
   }
 

@@ -28,7 +28,8 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
   all.ids.reserve (entries);
   ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
     ArrayFile& its = file (block);
-    const auto offsets = its.read<Index> (array + ".offsets", first, last + std::size_t{1});
+    std::vector<Index> offsets;
+    its.append (array + ".offsets", first, last + std::size_t{1}, offsets);
     its.require (std::is_sorted (offsets.begin (), offsets.end ()));
     const std::size_t before = all.ids.size ();
     requireListed (before + (offsets.back () - offsets.front ()));
@@ -38,69 +39,6 @@ Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
       all.offsets.push_back (static_cast<Index> (before) + *offset - offsets.front ());
   });
   return all;
-}
-
-void
-appendRow (const Row& row, CsrLists& all)
-{
-  if (all.offsets.empty ())
-    all.offsets.push_back (0);
-  all.ids.insert (all.ids.end (), row.begin (), row.end ());
-  all.offsets.push_back (static_cast<Index> (all.ids.size ()));
-}
-
-void
-toPlaces (const PointBlock& block, std::vector<Index>& points)
-{
-  const auto isAt = [&block] (Index place, Index point) {
-    return place < block.points.size () && block.points[place] == point;
-  };
-  Index place = 0; // of the last one
-  for (Index& point : points) {
-    place += point - block.points[place]; // mostly, all points between are in the block
-    if (!isAt (place, point))
-      place = block.placeOf (point);
-    const bool is_there = isAt (place, point);
-    point = is_there ? place : NONE;
-    place = is_there ? place : 0;
-  }
-}
-
-CsrLists
-toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists)
-{
-  CsrLists places;
-  places.offsets.assign (block.points.size () + 1, 0);
-  for (std::size_t i = 0; i < rows.size (); ++i)
-    places.offsets[block.placeOf (rows[i]) + 1] = static_cast<Index> (lists.row (i).size ());
-  sumRowLengths (places.offsets);
-  places.ids = std::move (lists.ids);
-  toPlaces (block, places.ids);
-  return places;
-}
-
-void
-takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
-        BlockSearch& search)
-{
-  do {
-    const PointBlock& block = search.block ();
-    for (std::size_t i = 0; i < rows.size (); ++i) {
-      std::vector<Index> missing;
-      for (const Index q : lists.row (i))
-        if ((q < rows.front () || q > rows.back ()) &&
-            !std::binary_search (block.points.begin (), block.points.end (), q))
-          missing.push_back (q);
-      if (missing.empty ())
-        continue;
-      sortUnique (missing);
-      const Eigen::Vector3d& here = block.positions[block.placeOf (rows[i])];
-      double farthest = 0.0;
-      for (const Eigen::Vector3d& there : cloud.gather (missing))
-        farthest = std::max (farthest, (there - here).norm ());
-      search.watch ().looked (here, farthest);
-    }
-  } while (search.widen ());
 }
 
 void

@@ -96,26 +96,6 @@ writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer
   writer.add (array + ".offsets", lists.offsets);
 }
 
-void
-appendRow (const Row& row, CsrLists& all);
-
-/// Replaces points by their places in a block; NONE if they are not in it.
-void
-toPlaces (const PointBlock& block, std::vector<Index>& points);
-
-/// Lists of places for all points of a block, of lists of points of some. Those of the others are
-/// empty.
-/// \param rows whose lists are given, as points, ascending; all in the block
-CsrLists
-toPlaces (const PointBlock& block, const std::vector<Index>& rows, CsrLists lists);
-
-inline void
-toPoints (const PointBlock& block, std::vector<Index>& places)
-{
-  for (Index& place : places)
-    place = block.points[place];
-}
-
 using Box = BlockCutter::Box;
 
 inline std::vector<Index>
@@ -220,12 +200,5 @@ struct OwnBlock
   StoredCloud cloud; ///< without them
   Index first, last; ///< the own points, and one behind the last
 };
-
-/// Widens a block until all points of these lists are in it.
-/// \param rows  own points, ascending
-/// \param lists of these
-void
-takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& cloud,
-        BlockSearch& search);
 
 } // namespace pcl::floater

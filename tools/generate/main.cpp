@@ -1,27 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl_floater_generate: writes points on a known surface, as a sample cloud.
-#include "atomic_file.h"
+#include "small_tool.h"
 #include "surfaces.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
-#include <iostream>
 #include <map>
-#include <new>
 #include <string>
 #include <vector>
 
 namespace {
 constexpr std::size_t MOST_POINTS = 1000000000;
-
-enum ExitCode : int
-{
-  DONE = 0,
-  USAGE = 1,
-  CANNOT_WRITE = 4
-};
 
 std::string
 pcdHeader (std::size_t points)
@@ -49,7 +38,8 @@ main (int argc, char** argv)
       "Writes points on a known surface, in random order, as a sample cloud (.pcd or .ply, "
       "binary).\n"
       "The unit of length is the mean spacing of the points: one point per unit of area.\n"
-      "Exit codes: 0 success, 1 usage, 4 the output cannot be written.",
+      "Exit codes: 0 success, 1 usage, 3 there is not enough memory, 4 the output cannot be "
+      "written.",
       "pcl_floater_generate"};
   std::string name, path;
   SurfaceSpec spec;
@@ -72,27 +62,12 @@ main (int argc, char** argv)
   app.add_option ("--gap", spec.gap, "folded-sheet: distance of its halves, in mean spacings")
       ->capture_default_str ();
   app.add_option ("--holes", spec.holes, "cut-out: number of holes")->capture_default_str ();
-  try {
-    app.parse (argc, argv);
-  }
-  catch (const CLI::ParseError& error) {
-    return app.exit (error) == 0 ? DONE : USAGE;
-  }
-
-  const auto fail = [] (ExitCode code, const std::string& message) {
-    std::cerr << "pcl_floater_generate: " << message << "\n";
-    return code;
-  };
-  const std::string extension = std::filesystem::path (path).extension ().string ();
-  if (extension != ".pcd" && extension != ".ply")
-    return fail (USAGE, "'" + path + "' must end in .pcd or .ply");
-  spec.kind = kinds.at (name);
-  if (const std::string error = surfaceSpecError (spec); !error.empty ())
-    return fail (USAGE, error);
-
-  try {
+  return runSmallTool (app, argc, argv, [&] {
+    const std::string extension = std::filesystem::path (path).extension ().string ();
+    if (extension != ".pcd" && extension != ".ply")
+      throw std::invalid_argument ("'" + path + "' must end in .pcd or .ply");
+    spec.kind = kinds.at (name);
     requireWritable (path);
-    handleSignals ();
     const std::vector<Eigen::Vector3d> points = generateSurface (spec);
     AtomicFile file (path);
     file.write (extension == ".pcd" ? pcdHeader (points.size ()) : plyHeader (points.size ()));
@@ -101,12 +76,5 @@ main (int argc, char** argv)
         file.writeNumber (static_cast<float> (coordinate), ByteOrder::LITTLE);
     file.close ();
     file.publish ();
-  }
-  catch (const WriteError& error) {
-    return fail (CANNOT_WRITE, error.what ());
-  }
-  catch (const std::bad_alloc&) {
-    return fail (CANNOT_WRITE, "there is not enough memory for so many points");
-  }
-  return DONE;
+  });
 }

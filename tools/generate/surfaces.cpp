@@ -254,8 +254,7 @@ ringRotation (std::size_t n)
   return static_cast<double> (best) / static_cast<double> (n);
 }
 
-} // namespace
-
+// The error in a specification, in one sentence; empty if there is none.
 std::string
 surfaceSpecError (const SurfaceSpec& spec)
 {
@@ -280,6 +279,8 @@ surfaceSpecError (const SurfaceSpec& spec)
     return "there are too many holes for so few points: their radius is below 4 spacings";
   return {};
 }
+
+} // namespace
 
 // The samples are the golden lattice (k / n, k * golden ratio mod 1), randomly displaced. It stays
 // even if it is stretched along its axes by any factors, and so is even on the surface as well,

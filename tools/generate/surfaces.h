@@ -81,15 +81,11 @@ constexpr std::array<std::pair<const char*, SurfaceKind>, 7> SURFACES{
      {"sphere", SurfaceKind::SPHERE},
      {"torus", SurfaceKind::TORUS}}};
 
-/// The error in a specification, in one sentence; empty if there is none.
-std::string
-surfaceSpecError (const SurfaceSpec& spec);
-
 /// Makes exactly spec.points points in random order, irregular but evenly dense like a scan. Before
 /// noise is added, two points are at least about a quarter of the local spacing apart, and no gap
 /// is wider than about twice the local spacing. The same specification gives the same points. O(n),
-/// up to 0.6 microseconds per point. \throw std::invalid_argument with surfaceSpecError () if that
-/// is not empty
+/// up to 0.6 microseconds per point. \throw std::invalid_argument if something
+/// is out of its range, or does not fit the number of points
 std::vector<Eigen::Vector3d>
 generateSurface (const SurfaceSpec& spec);
 

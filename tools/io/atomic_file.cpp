@@ -178,10 +178,8 @@ AtomicFile::AtomicFile (const std::filesystem::path& path, bool is_private)
     temporary_ = (folderOf (target_) / name).string ();
     slot_ = remember (temporary_); // before it exists, because a signal may come right after
     descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    const int error = errno;
     if (descriptor_ < 0)
-      forget (slot_);
-    errno = error;
+      forget (slot_); // leaves errno as it is
     if (descriptor_ < 0 && errno != EEXIST)
       break;
   }

@@ -322,19 +322,18 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 Cloud
 copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows)
 {
-  Cloud copied;
-  copied.coordinates = cloud.coordinates;
-  copied.single_precision = cloud.single_precision;
-  copied.shift = cloud.shift;
-  copied.sensor_origin = cloud.sensor_origin;
+  Cloud copied = cloud;
+  copied.kept.clear ();
   copied.rows = rows.size ();
-  copied.fields = cloud.fields;
-  allocateRows (allFields (copied), rows.size ());
-  const auto rowOf = [&rows] (std::size_t i) { return rows[i]; };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    copyValues (cloud.coordinates[axis], rows.size (), rowOf, copied.coordinates[axis]);
-  for (std::size_t f = 0; f < cloud.fields.size (); ++f)
-    copyValues (cloud.fields[f], rows.size (), rowOf, copied.fields[f]);
+  for (Field* field : allFields (copied)) {
+    const std::size_t bytes = field->pointBytes ();
+    const std::shared_ptr<char> values (new char[bytes * rows.size ()],
+                                        std::default_delete<char[]> ());
+    for (std::size_t i = 0; i < rows.size (); ++i)
+      std::memcpy (values.get () + i * bytes, field->first.get () + rows[i] * field->stride, bytes);
+    field->first = values;
+    field->stride = bytes;
+  }
   return copied;
 }
 

@@ -196,6 +196,22 @@ allocateRows (const std::vector<Field*>& fields, std::size_t points)
   return rows;
 }
 
+/// Writes the values that a field has of one point, in the byte order of this machine.
+/// \param next next (T{}, c) is value c, of the C++ type T of the field
+/// \return where the next field begins in rows of allocateRows
+template <typename Next>
+char*
+putValues (const Field& field, char* to, const Next& next)
+{
+  visitType (field.type, [&] (auto value) {
+    for (std::size_t c = 0; c < field.count; ++c, to += sizeof value) {
+      value = next (value, c);
+      std::memcpy (to, &value, sizeof value);
+    }
+  });
+  return to;
+}
+
 /// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)
 /// of type UINT8, and normals are nx, ny, nz. All other fields keep their names. The fields have
 /// all rows of the file, also those of points that have been left out since.
@@ -329,36 +345,5 @@ replaceColumns (std::initializer_list<const char*> names, ScalarType type, Value
 /// kept. Coordinates, shift and all fields are copied. O(rows).
 Cloud
 copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows);
-
-/// Sets values of a field of which allocateRows has made the rows, from row `first` on.
-/// \tparam T the C++ type of the field
-template <typename T, typename ValueOf>
-void
-setValues (const Field& field, std::size_t first, std::size_t count, const ValueOf& valueOf)
-{
-  auto* bytes = const_cast<char*> (field.first.get ()) + first * field.stride;
-  for (std::size_t i = 0; i < count; ++i) {
-    const T value = valueOf (i);
-    std::memcpy (bytes + i * field.stride, &value, sizeof (T));
-  }
-}
-
-/// Copies values to such a field of the same type and count.
-/// \param rowOf rowOf (i) is the row of the i-th of them
-template <typename RowOf>
-void
-copyValues (const Field& from, std::size_t count, const RowOf& rowOf, const Field& to,
-            std::size_t first = 0)
-{
-  visitType (from.type, [&] (auto tag) {
-    using T = decltype (tag);
-    Field each = to; // of the values of a point
-    for (std::size_t c = 0; c < from.count; ++c) {
-      setValues<T> (each, first, count,
-                    [&] (std::size_t i) { return from.value<T> (rowOf (i), c); });
-      each.first = {each.first, each.first.get () + sizeof (T)};
-    }
-  });
-}
 
 } // namespace pcl::floater

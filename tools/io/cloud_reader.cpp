@@ -51,23 +51,10 @@ parseBin (const FileBytes& file, const ReadOptions& /*options*/)
     }
     if (!fits)
       continue;
-    Cloud cloud = makeCloud (std::move (fields), points);
-    cloud.file = file;
-    return cloud;
+    return makeCloud (std::move (fields), points);
   }
   throw ReadError ("it does not hold four floats for each point, x, y, z and intensity, as KITTI's "
                    "files do, nor five, with a ring");
-}
-
-Cloud
-readCloud (const std::filesystem::path& path, const ReadOptions& options)
-{
-  const CloudFormat format = cloudFormatOf (path);
-  requireReadable (path);
-  if (!format)
-    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
-                     CLOUD_EXTENSIONS);
-  return readCloud (path, format, options);
 }
 
 namespace {
@@ -120,15 +107,26 @@ chooseClasses (Cloud& cloud, const std::vector<int>& classes)
 } // namespace
 
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options)
+readCloud (const std::filesystem::path& path, const ReadOptions& options, CloudFormat format)
 {
-  const FileBytes file = isStandardStream (path) ? FileBytes::standardInput () : FileBytes (path);
+  if (format == nullptr)
+    format = cloudFormatOf (path);
+  if (format == nullptr) {
+    requireReadable (path);
+    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
+                     CLOUD_EXTENSIONS);
+  }
+  const FileBytes file (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"
                                              : "the file is empty");
   if (options.columns[0] > 0 && format != parseXyz && format != parsePts)
     throw ReadError ("--columns is for text with a point in each line");
   Cloud cloud = format (file, options);
+  const std::string_view bytes = file.view ();
+  if (const char* const x = cloud.coordinates[0].first.get ();
+      x >= bytes.data () && x < bytes.data () + bytes.size ())
+    cloud.file = file;
   chooseClasses (cloud, options.classes);
   return cloud;
 }

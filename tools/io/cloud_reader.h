@@ -16,37 +16,35 @@
 #include <optional>
 
 namespace pcl::floater {
-/// Cuts polygons into triangles at their first corners.
-class PolygonFans
+/// Cuts a polygon into triangles at its first corner.
+/// \param points of which the corners must be
+/// \throws ReadError if there is no such point
+inline void
+addFan (const std::vector<double>& corners, std::size_t points, Triangles& triangles)
 {
-public:
-  /// \param points of which the corners must be
-  PolygonFans (std::size_t points, Triangles& triangles) : points_ (points), triangles_ (triangles)
-  {
+  const auto corner = [&corners] (std::size_t i) {
+    return static_cast<std::uint32_t> (corners[i]);
+  };
+  for (std::size_t i = 0; i < corners.size (); ++i) {
+    if (!(corners[i] >= 0.0 && corners[i] < static_cast<double> (points)))
+      throw ReadError ("a polygon has a corner that is none of the " + counted (points, "point"));
+    if (i > 1)
+      triangles.push_back ({corner (0), corner (i - 1), corner (i)});
   }
+}
 
-  void begin () { corners_ = 0; }
-
-  /// \throws ReadError if there is no such point
-  void add (double corner)
-  {
-    if (!(corner >= 0.0 && corner < static_cast<double> (points_)))
-      throw ReadError ("a polygon has a corner that is none of the " + counted (points_, "point"));
-    const auto point = static_cast<std::uint32_t> (corner);
-    if (corners_ == 0)
-      first_ = point;
-    else if (corners_ > 1)
-      triangles_.push_back ({first_, last_, point});
-    last_ = point;
-    ++corners_;
+/// Calls read (), and adds the name of the file to a ReadError.
+template <typename Read>
+auto
+readNamed (const std::filesystem::path& path, Read&& read)
+{
+  try {
+    return read ();
   }
-
-private:
-  std::size_t points_;
-  Triangles& triangles_;
-  std::size_t corners_ = 0; // of the polygon so far
-  std::uint32_t first_ = 0, last_ = 0;
-};
+  catch (const ReadError& error) {
+    throw ReadError ("cannot read " + inputName (path) + ": " + error.what ());
+  }
+}
 
 /// Fails because a file has less than its header tells.
 [[noreturn]] inline void
@@ -167,13 +165,10 @@ cloudFormatOf (const std::filesystem::path& path);
 
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input
-/// \throws ReadError if the file is not a complete and valid cloud
+/// \param format nullptr: that which the extension tells
+/// \throws ReadError if the file is not a complete and valid cloud, or the extension is unknown
 Cloud
-readCloud (const std::filesystem::path& path, CloudFormat format, const ReadOptions& options = {});
-
-/// The same, in the format that the extension tells.
-/// \throws ReadError if the extension is unknown
-Cloud
-readCloud (const std::filesystem::path& path, const ReadOptions& options = {});
+readCloud (const std::filesystem::path& path, const ReadOptions& options = {},
+           CloudFormat format = nullptr);
 
 } // namespace pcl::floater

@@ -3,6 +3,7 @@
 #include "file_bytes.h"
 
 #include "cloud.h"
+#include "format.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -37,6 +38,7 @@ failOnErrno ()
 
 struct FileBytes::Holder
 {
+  /// \param opened a descriptor; negative if that failed
   explicit Holder (int opened) : descriptor (opened)
   {
     if (descriptor < 0 || ::fstat (descriptor, &status) != 0)
@@ -46,19 +48,20 @@ struct FileBytes::Holder
     if (S_ISREG (status.st_mode) && size > 0)
       at = ::mmap (nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
     is_mapped = at != MAP_FAILED;
-    if (!is_mapped)
+    if (!is_mapped) {
+      readAll ();
       return;
+    }
     bytes = {static_cast<const char*> (at), size};
     ::madvise (at, size, MADV_SEQUENTIAL);
     const auto first = reinterpret_cast<std::uintptr_t> (at);
     const std::lock_guard<std::mutex> lock (ranges_mutex);
-    for (MappedRange& range : mapped_ranges) {
-      std::uintptr_t free = 0;
-      if (range.first.compare_exchange_strong (free, first)) {
+    for (MappedRange& range : mapped_ranges)
+      if (range.first == 0) {
         range.last = first + size;
+        range.first = first;
         break;
       }
-    }
   }
 
   ~Holder ()
@@ -104,30 +107,15 @@ struct FileBytes::Holder
 FileBytes::FileBytes (const std::filesystem::path& path)
 {
   std::error_code error;
+  const bool is_stream = isStandardStream (path);
   const std::filesystem::file_status status = std::filesystem::status (path, error);
-  if (status.type () == std::filesystem::file_type::not_found)
+  if (!is_stream && status.type () == std::filesystem::file_type::not_found)
     throw ReadError ("there is no such file; check its name");
-  if (std::filesystem::is_directory (status))
+  if (!is_stream && std::filesystem::is_directory (status))
     throw ReadError ("it is a folder, not a file");
-  take (::open (path.c_str (), O_RDONLY | O_CLOEXEC));
-}
-
-FileBytes
-FileBytes::standardInput ()
-{
-  FileBytes bytes;
-  bytes.take (::fcntl (STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
-  return bytes;
-}
-
-void
-FileBytes::take (int descriptor)
-{
-  const auto holder = std::make_shared<Holder> (descriptor);
-  if (!holder->is_mapped)
-    holder->readAll ();
-  holder_ = holder;
-  bytes_ = holder->bytes;
+  holder_ = std::make_shared<Holder> (is_stream ? ::fcntl (STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                                                : ::open (path.c_str (), O_RDONLY | O_CLOEXEC));
+  bytes_ = holder_->bytes;
 }
 
 void

@@ -53,12 +53,9 @@ class FileBytes
 public:
   FileBytes () = default;
 
+  /// \param path "-": what comes from the standard input, to its end
   /// \throws ReadError if the file does not exist, is a folder, or cannot be read
   explicit FileBytes (const std::filesystem::path& path);
-
-  /// What comes from the standard input, to its end.
-  /// \throws ReadError if it cannot be read
-  static FileBytes standardInput ();
 
   /// Bytes of the caller, which must outlive all copies of this object.
   explicit FileBytes (std::string_view bytes) : bytes_ (bytes) {}
@@ -76,9 +73,6 @@ public:
 
 private:
   struct Holder;
-
-  /// \param descriptor of an open file, which is closed with the bytes; negative if that failed
-  void take (int descriptor);
 
   std::shared_ptr<const Holder> holder_;
   std::string_view bytes_;

@@ -3,6 +3,8 @@
 // Names, extensions and numbers in messages.
 #pragma once
 
+#include <boost/locale/utf.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,41 +56,24 @@ inputName (const std::filesystem::path& path)
   return isStandardStream (path) ? "the standard input" : "'" + path.string () + "'";
 }
 
-/// Bytes of the UTF-8 character that a text begins with; 0: of none.
-inline std::size_t
-characterBytes (std::string_view text)
-{
-  const auto byte = [text] (std::size_t i) -> unsigned {
-    return i < text.size () ? static_cast<unsigned char> (text[i]) : 0U;
-  };
-  const unsigned first = byte (0);
-  constexpr std::array<unsigned, 5> FROM{0x80, 0xC2, 0xE0, 0xF0, 0xF5}; // first bytes
-  constexpr std::array<std::size_t, 6> COUNTS{1, 0, 2, 3, 4, 0};
-  const auto* const range = std::upper_bound (FROM.begin (), FROM.end (), first);
-  const std::size_t count = COUNTS[static_cast<std::size_t> (range - FROM.begin ())];
-  for (std::size_t i = 1; i < count; ++i)
-    if ((byte (i) & 0xC0U) != 0x80)
-      return 0;
-  return count;
-}
-
 /// A text for a terminal: what would control it, and what is no UTF-8, as \x1b.
 inline std::string
 printable (std::string_view text)
 {
+  constexpr unsigned DELETE = 0x7F, LAST_CONTROL = 0x9F;
   std::string shown;
-  while (!text.empty ()) {
-    const std::size_t bytes = characterBytes (text);
-    const auto first = static_cast<unsigned char> (text[0]);
-    const bool is_control = bytes == 1
-                                ? (first < ' ' && first != '\n' && first != '\t') || first == 0x7F
-                                : first == 0xC2 && static_cast<unsigned char> (text[1]) < 0xA0;
-    const std::string_view character = text.substr (0, std::max<std::size_t> (bytes, 1));
-    text.remove_prefix (character.size ());
-    if (bytes > 0 && !is_control)
-      shown += character;
+  for (const char *at = text.data (), *const end = at + text.size (); at != end;) {
+    const char* const first = at;
+    const auto code = boost::locale::utf::utf_traits<char>::decode (at, end);
+    const bool is_utf8 = boost::locale::utf::is_valid_codepoint (code);
+    if (!is_utf8)
+      at = first + 1;
+    if (is_utf8 &&
+        (code > LAST_CONTROL || (code >= ' ' && code < DELETE) || code == '\n' || code == '\t'))
+      shown.append (first, at);
     else
-      for (const unsigned char value : character)
+      for (const unsigned char value :
+           std::string_view (first, static_cast<std::size_t> (at - first)))
         shown += {'\\', 'x', "0123456789abcdef"[value >> 4U], "0123456789abcdef"[value & 15U]};
   }
   return shown;

@@ -201,7 +201,6 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   // A centimetre of height is 1e-7 degrees.
   constexpr double FINER = 1e3;
   cloud.may_be_degrees = FINER * std::abs (header.scales[0]) <= std::abs (header.scales[2]);
-  cloud.file = file;
   return cloud;
 }
 

@@ -169,11 +169,4 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
   return image;
 }
 
-std::string
-materialsText (const std::string& image)
-{
-  return "newmtl surface\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1\n" +
-         (image.empty () ? "" : "map_Kd " + image + "\n");
-}
-
 } // namespace pcl::floater

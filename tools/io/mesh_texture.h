@@ -67,16 +67,6 @@ parsePng (const FileBytes& file);
 Cloud
 doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles);
 
-/// Vertices that the doubled cloud has.
-inline std::size_t
-countVertices (const Cloud& cloud, const TextureCoordinates& texture)
-{
-  std::size_t doubled = 0;
-  for (std::size_t c = 1; c < texture.points.size (); ++c)
-    doubled += texture.points[c] == texture.points[c - 1] ? 1 : 0;
-  return cloud.size () + doubled;
-}
-
 /// Side of the image at which an edge of the mesh is about two pixels long: a power of two from 256
 /// to 8192.
 /// \param area_used share of the square that the mesh covers
@@ -97,10 +87,5 @@ materialsBeside (std::filesystem::path obj)
 {
   return obj.replace_extension (".mtl");
 }
-
-/// A file of materials for OBJ: one, named "surface", white, or with an image.
-/// \param image name of the image as the file of materials is to tell it; may be empty
-std::string
-materialsText (const std::string& image);
 
 } // namespace pcl::floater

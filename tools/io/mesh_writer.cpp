@@ -22,15 +22,13 @@ shiftLine (const char* begin, const Cloud& cloud)
 void
 printNormal (AtomicFile& file, const FieldTriple& fields, std::size_t row)
 {
-  visitType (fields[0]->type, [&] (auto tag) {
-    using T = decltype (tag);
-    const std::array<T, 3> values{fields[0]->value<T> (row), fields[1]->value<T> (row),
-                                  fields[2]->value<T> (row)};
-    const bool are_finite =
-        std::isfinite (values[0]) && std::isfinite (values[1]) && std::isfinite (values[2]);
-    for (const T value : values)
-      file.print (" ", are_finite ? value : T{0});
+  const bool are_finite = std::all_of (fields.begin (), fields.end (), [row] (const Field* field) {
+    return std::isfinite (field->asDouble (row));
   });
+  for (const Field* field : fields)
+    visitType (field->type, [&] (auto value) {
+      file.print (" ", are_finite ? field->value<decltype (value)> (row) : value);
+    });
 }
 
 /// Calls write (coordinate) with the coordinates of a point as floats or doubles, as they are written.

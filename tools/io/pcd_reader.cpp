@@ -159,11 +159,8 @@ readAscii (TextScanner& scanner, PcdHeader& header)
         for (std::size_t c = 0; c < field.count; ++c)
           scanner.word ();
       else
-        visitType (field.type, [&] (auto number) {
-          for (std::size_t c = 0; c < field.count; ++c, to += sizeof number) {
-            number = scanner.number<decltype (number)> ();
-            std::memcpy (to, &number, sizeof number);
-          }
+        to = putValues (field, to, [&scanner] (auto tag, std::size_t) {
+          return scanner.number<decltype (tag)> ();
         });
     }
     if (!scanner.word ().empty ())
@@ -249,8 +246,6 @@ parsePcd (const FileBytes& file, const ReadOptions& options)
   Cloud cloud = makeCloud (std::move (kept), header.points, std::move (header.warnings));
   cloud.sensor_origin = header.viewpoint;
   cloud.single_precision |= is_widened;
-  if (header.data == "binary")
-    cloud.file = file;
   const std::size_t height = header.height.value_or (1);
   if (height > 1 && header.points > height) // one row, or rows of one point, are a list
     cloud.notes.push_back ("organized in " + counted (height, "row") + " of " +

@@ -120,92 +120,6 @@ fieldsOf (Element& element)
   return fields;
 }
 
-/// Reads an element.
-/// \param keep whether to store its values, without lists, in rows of its fields
-/// \param fans get the corners of faces; may be nullptr
-/// \param nextRow nextRow (row) goes to the next row
-/// \param next next (T{}) is the next value, of the type T
-/// \param endRow endRow () is called behind the last value of a row
-template <typename NextRow, typename Next, typename EndRow>
-void
-readRows (Element& element, bool keep, PolygonFans* fans, const NextRow& nextRow, const Next& next,
-          const EndRow& endRow)
-{
-  char* to = keep ? allocateRows (fieldsOf (element), element.count).get () : nullptr;
-  for (std::size_t row = 0; row < element.count; ++row) {
-    nextRow (row);
-    for (const Property& property : element.properties) {
-      const std::string& name = property.field.name;
-      const bool are_corners = property.is_list && fans != nullptr &&
-                               (name == "vertex_indices" || name == "vertex_index");
-      std::size_t count = 1;
-      if (property.is_list)
-        count = visitType (property.length_type,
-                           [&] (auto tag) { return static_cast<std::size_t> (next (tag)); });
-      if (are_corners)
-        fans->begin ();
-      visitType (property.field.type, [&] (auto tag) {
-        for (; count > 0; --count) {
-          const auto value = next (tag);
-          if (are_corners)
-            fans->add (static_cast<double> (value));
-          else if (to != nullptr && !property.is_list) {
-            std::memcpy (to, &value, sizeof value);
-            to += sizeof value;
-          }
-        }
-      });
-    }
-    endRow ();
-  }
-}
-
-/// Reads an element of a text; passes over it if it is not kept.
-void
-readAscii (TextScanner& scanner, Element& element, bool keep, PolygonFans* fans)
-{
-  const auto nextRow = [&] (std::size_t row) {
-    if (!scanner.nextFilledLine ())
-      failPromise (element.what (), element.count, row);
-  };
-  if (!keep)
-    for (std::size_t row = 0; row < element.count; ++row)
-      nextRow (row);
-  else
-    readRows (
-        element, keep, fans, nextRow,
-        [&scanner] (auto tag) { return scanner.number<decltype (tag)> (); },
-        [&scanner] {
-          if (scanner.hasWord ())
-            scanner.fail ("it has more values than there are properties");
-        });
-}
-
-/// Reads a binary element. Without lists, the fields are views of the file.
-/// \return the bytes that follow it
-std::string_view
-readBinary (const FileBytes& file, std::string_view bytes, ByteOrder order, Element& element,
-            bool keep, PolygonFans* fans)
-{
-  const std::vector<Field*> fields = fieldsOf (element);
-  if (fields.size () == element.properties.size ()) {
-    viewRows (fields, file.at (file.view ().size () - bytes.size ()), order);
-    return bytes.substr (element.count * rowBytes (fields)); // within the file: see requireRoom
-  }
-  std::size_t at = 0; // the row
-  readRows (
-      element, keep, fans, [&at] (std::size_t row) { at = row; },
-      [&] (auto tag) {
-        if (bytes.size () < sizeof tag)
-          failPromise (element.what (), element.count, at);
-        tag = readNumber<decltype (tag)> (bytes.data (), order);
-        bytes.remove_prefix (sizeof tag);
-        return tag;
-      },
-      [] {});
-  return bytes;
-}
-
 std::size_t
 fewestBytes (const Element& element, bool is_ascii)
 {
@@ -215,6 +129,88 @@ fewestBytes (const Element& element, bool is_ascii)
   return fewest;
 }
 
+/// Reads the elements of a file, one after the other.
+class PlyElements
+{
+public:
+  /// \param scanner behind the header
+  /// \param order none: it is a text
+  PlyElements (const FileBytes& file, TextScanner& scanner, std::optional<ByteOrder> order)
+      : file_ (file), scanner_ (scanner), order_ (order), rest_ (scanner.rest ())
+  {
+  }
+
+  /// Binary elements without lists become views of the file.
+  /// \param keep whether to store the values of others, without lists, in rows of the fields
+  /// \param points which the corners of faces are
+  /// \param triangles get the faces; may be nullptr
+  void read (Element& element, bool keep, std::size_t points, Triangles* triangles)
+  {
+    // The last line of a text may end without a newline.
+    requireRoom (element.what (), element.count, fewestBytes (element, !order_),
+                 order_ ? rest_.size () : scanner_.rest ().size () + 1);
+    const std::vector<Field*> fields = fieldsOf (element);
+    if (order_ && fields.size () == element.properties.size ()) {
+      viewRows (fields, file_.at (file_.view ().size () - rest_.size ()), *order_);
+      rest_.remove_prefix (element.count * rowBytes (fields));
+      return;
+    }
+    char* to = keep ? allocateRows (fields, element.count).get () : nullptr; // the fields keep it
+    for (std::size_t row = 0; row < element.count; ++row) {
+      if (!order_ && !scanner_.nextFilledLine ())
+        failPromise (element.what (), element.count, row);
+      if (!order_ && !keep)
+        continue;
+      for (const Property& property : element.properties)
+        if (property.is_list)
+          readList (property, element, row, points, triangles);
+        else
+          visitType (property.field.type, [&] (auto value) {
+            value = next<decltype (value)> (element, row);
+            if (to != nullptr)
+              to = std::copy_n (reinterpret_cast<const char*> (&value), sizeof value, to);
+          });
+      if (!order_ && scanner_.hasWord ())
+        scanner_.fail ("it has more values than there are properties");
+    }
+  }
+
+private:
+  void readList (const Property& list, const Element& element, std::size_t row, std::size_t points,
+                 Triangles* triangles)
+  {
+    auto length = visitType (list.length_type, [&] (auto tag) {
+      return static_cast<std::size_t> (next<decltype (tag)> (element, row));
+    });
+    list_.clear ();
+    visitType (list.field.type, [&] (auto tag) {
+      for (; length > 0; --length)
+        list_.push_back (static_cast<double> (next<decltype (tag)> (element, row)));
+    });
+    const std::string& name = list.field.name;
+    if (triangles != nullptr && (name == "vertex_indices" || name == "vertex_index"))
+      addFan (list_, points, *triangles);
+  }
+
+  template <typename T>
+  T next (const Element& element, std::size_t row)
+  {
+    if (!order_)
+      return scanner_.number<T> ();
+    if (rest_.size () < sizeof (T))
+      failPromise (element.what (), element.count, row);
+    const T number = readNumber<T> (rest_.data (), *order_);
+    rest_.remove_prefix (sizeof (T));
+    return number;
+  }
+
+  const FileBytes& file_;
+  TextScanner& scanner_;
+  std::optional<ByteOrder> order_;
+  std::string_view rest_; // of a binary file
+  std::vector<double> list_;
+};
+
 } // namespace
 
 Cloud
@@ -222,26 +218,17 @@ parsePly (const FileBytes& file, const ReadOptions& options)
 {
   TextScanner scanner (file.view ());
   PlyHeader header = readPlyHeader (scanner);
-  std::string_view rest = scanner.rest ();
   Element& vertices = *header.find ("vertex");
   const Element* const faces = header.find ("face");
   Triangles* const triangles = options.faces;
   const bool is_widened =
       options.all_digits && !header.byte_order && widenCoordinates (fieldsOf (vertices));
-  Triangles none;
-  PolygonFans fans (vertices.count, triangles == nullptr ? none : *triangles);
+  PlyElements elements (file, scanner, header.byte_order);
   const Element* const last =
       triangles != nullptr && faces != nullptr && faces > &vertices ? faces : &vertices;
   for (Element* element = header.elements.data (); element <= last; ++element) {
-    PolygonFans* const its_fans = triangles != nullptr && element == faces ? &fans : nullptr;
-    const bool keep = element == &vertices || its_fans != nullptr;
-    // The last line of a text may end without a newline.
-    requireRoom (element->what (), element->count, fewestBytes (*element, !header.byte_order),
-                 header.byte_order ? rest.size () : scanner.rest ().size () + 1);
-    if (header.byte_order)
-      rest = readBinary (file, rest, *header.byte_order, *element, keep, its_fans);
-    else
-      readAscii (scanner, *element, keep, its_fans);
+    Triangles* const its = element == faces ? triangles : nullptr;
+    elements.read (*element, element == &vertices || its != nullptr, vertices.count, its);
   }
   std::vector<Field> fields;
   std::vector<std::string> warnings;
@@ -255,8 +242,6 @@ parsePly (const FileBytes& file, const ReadOptions& options)
     warnings.push_back (facesLeftOut (faces->count));
   Cloud cloud = makeCloud (std::move (fields), vertices.count, std::move (warnings));
   cloud.single_precision |= is_widened;
-  if (header.byte_order && fieldsOf (vertices).size () == vertices.properties.size ())
-    cloud.file = file;
   return cloud;
 }
 

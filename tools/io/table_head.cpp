@@ -7,15 +7,6 @@
 #include <limits>
 
 namespace pcl::floater {
-std::string
-quoted (std::string_view line, std::size_t characters)
-{
-  std::string text;
-  for (const char c : line.substr (0, characters))
-    text += c >= ' ' && c <= '~' ? c : '?';
-  return "'" + text + (line.size () > characters ? "..." : "") + "'";
-}
-
 namespace {
 std::string_view
 trim (std::string_view text)
@@ -72,82 +63,6 @@ withoutUnit (std::string_view name)
   return name;
 }
 
-namespace {
-/// Whether a column is called by a known name: with a unit, and, if it is long, with anything behind.
-bool
-isCalled (std::string_view name, std::string_view known)
-{
-  constexpr std::size_t LONG = 7; // letters: easting, latitude
-  return !known.empty () && (withoutUnit (name) == known || name == known ||
-                             (known.size () >= LONG && name.substr (0, known.size ()) == known));
-}
-
-/// A column of this name, which is compared in lower case and without a unit: "X [m]" is "x".
-Column
-columnOf (std::string_view text)
-{
-  Column column;
-  column.name = trim (text.substr (0, text.find_first_of ("[(")));
-  for (char& c : column.name)
-    c = TextScanner::isBlank (c) ? '_' : lowerCase (c);
-  constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
-  if (column.name.rfind (SCALAR, 0) == 0)
-    column.name.erase (0, SCALAR.size ());
-  for (std::size_t kind = 0; kind < OTHER; ++kind)
-    for (std::size_t rank = 0; rank < KNOWN[kind].size (); ++rank)
-      if (column.kind == OTHER && isCalled (column.name, KNOWN[kind][rank])) {
-        column.kind = kind;
-        column.rank = rank;
-      }
-  return column;
-}
-
-/// Columns that a header names: "x,y,z,red,green,blue", "//X Y Z R G B".
-std::vector<Column>
-columnsOfHeader (std::string_view line, char separator)
-{
-  Words words;
-  std::vector<Column> columns;
-  splitColumns (line, separator, words);
-  for (const std::string_view text : words)
-    if (text.empty () || text.back () != ':') // "columns: x y z"
-      columns.push_back (columnOf (text));
-  // One of each kind, the first of those with the best name; others are fields like any other.
-  std::array<Column*, OTHER> best{};
-  for (Column& column : columns)
-    if (column.kind != OTHER && (!best[column.kind] || column.rank < best[column.kind]->rank))
-      best[column.kind] = &column;
-  const auto has = [&best] (std::size_t first) { // all three
-    return best[first] && best[first + 1] && best[first + 2];
-  };
-  for (Column& column : columns)
-    if (column.kind != OTHER &&
-        (&column != best[column.kind] || (column.isColor () && !has (RED)) ||
-         (column.kind > ALPHA && column.kind < INTENSITY && !has (NORMAL_X))))
-      column.kind = OTHER;
-  return columns;
-}
-
-bool
-haveCoordinates (const std::vector<Column>& columns)
-{
-  return std::count_if (columns.begin (), columns.end (),
-                        [] (const Column& column) { return column.kind <= Z; }) == 3;
-}
-
-/// The first separator that makes it a header with x, y and z; else any.
-std::vector<Column>
-namedColumns (std::string_view line)
-{
-  std::vector<Column> columns;
-  for (const char separator : {';', ',', ' '})
-    if (haveCoordinates (columns = columnsOfHeader (line, separator)))
-      break;
-  return columns;
-}
-
-} // namespace
-
 std::optional<std::string_view>
 commentText (std::string_view line)
 {
@@ -176,6 +91,79 @@ countOf (std::string_view line)
 }
 
 namespace {
+/// Whether a column is called by a known name: with a unit, and, if it is long, with anything behind.
+bool
+isCalled (std::string_view name, std::string_view known)
+{
+  constexpr std::size_t LONG = 7; // letters: easting, latitude
+  return !known.empty () && (withoutUnit (name) == known || name == known ||
+                             (known.size () >= LONG && name.substr (0, known.size ()) == known));
+}
+
+/// A column of this name, which is compared in lower case and without a unit: "X [m]" is "x".
+Column
+columnOf (std::string_view text)
+{
+  Column column;
+  column.name = trim (text.substr (0, text.find_first_of ("[(")));
+  for (char& c : column.name)
+    c = TextScanner::isBlank (c) ? '_' : lowerCase (c);
+  constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
+  if (column.name.rfind (SCALAR, 0) == 0)
+    column.name.erase (0, SCALAR.size ());
+  return column;
+}
+
+/// Columns that a header names: "x,y,z,red,green,blue", "//X Y Z R G B".
+std::vector<Column>
+columnsOfHeader (std::string_view line, char separator)
+{
+  Words words;
+  std::vector<Column> columns;
+  splitColumns (line, separator, words);
+  for (const std::string_view text : words)
+    if (text.empty () || text.back () != ':') // "columns: x y z"
+      columns.push_back (columnOf (text));
+  // One of each kind, the first of those with the best name; others are fields like any other.
+  std::array<bool, OTHER> has{};
+  for (std::size_t kind = 0; kind < OTHER; ++kind)
+    for (const std::string_view name : KNOWN[kind]) {
+      const auto found =
+          std::find_if (columns.begin (), columns.end (), [name] (const Column& one) {
+            return one.kind == OTHER && isCalled (one.name, name);
+          });
+      if (found == columns.end () || has[kind])
+        continue;
+      found->kind = kind;
+      has[kind] = true;
+    }
+  const bool has_color = has[RED] && has[RED + 1] && has[RED + 2];
+  const bool has_normal = has[NORMAL_X] && has[NORMAL_X + 1] && has[NORMAL_X + 2];
+  for (Column& column : columns)
+    if ((column.isColor () && !has_color) ||
+        (column.kind > ALPHA && column.kind < INTENSITY && !has_normal))
+      column.kind = OTHER;
+  return columns;
+}
+
+bool
+haveCoordinates (const std::vector<Column>& columns)
+{
+  return std::count_if (columns.begin (), columns.end (),
+                        [] (const Column& column) { return column.kind <= Z; }) == 3;
+}
+
+/// The first separator that makes it a header with x, y and z; else any.
+std::vector<Column>
+namedColumns (std::string_view line)
+{
+  std::vector<Column> columns;
+  for (const char separator : {';', ',', ' '})
+    if (haveCoordinates (columns = columnsOfHeader (line, separator)))
+      break;
+  return columns;
+}
+
 /// Whether words are a point with these columns. Marks the columns that are no numbers.
 bool
 isPoint (const Words& words, const ColumnSeparator& separator, std::vector<Column>& columns)

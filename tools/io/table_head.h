@@ -53,7 +53,6 @@ constexpr std::array<std::array<std::string_view, 10>, OTHER> KNOWN{
 struct Column
 {
   std::size_t kind = OTHER;
-  std::size_t rank = 0;   ///< of its name among those of its kind
   std::string name;       ///< of an OTHER
   bool is_number = true;  ///< else it is text, and is skipped
   bool are_bytes = true;  ///< all values are whole numbers from 0 to 255
@@ -74,10 +73,6 @@ struct TableHead
   std::string first_skipped;
   std::string_view last_line; ///< the last of them, which may have been names
 };
-
-/// The beginning of a line in a message, without what is not printable.
-std::string
-quoted (std::string_view line, std::size_t characters = 40);
 
 /// Cuts a line into columns, without blanks and quotes around them. An empty last one is left out.
 /// \return whether it was

@@ -76,21 +76,19 @@ public:
       return c + 3 <= width_ && columns_[c].are_bytes && columns_[c + 1].are_bytes &&
              columns_[c + 2].are_bytes;
     };
-    bool has_color = false, has_normal = false;
-    bool has_intensity = width_ % 3 != 1; // 3 k + 1: one of them belongs to no three
+    std::array<bool, OTHER + 1> has{};
+    has[INTENSITY] = width_ % 3 != 1; // 3 k + 1: one of them belongs to no three
     std::string taken;
     for (std::size_t c = 3; c < width_;) {
       std::size_t first = OTHER;
-      if (!has_normal && areUnitVectors (c))
+      if (!has[NORMAL_X] && areUnitVectors (c))
         first = NORMAL_X;
-      else if (!has_color && areBytes (c) &&
-               (has_intensity || !is_intensity_first || !areBytes (c + 1)))
+      else if (!has[RED] && areBytes (c) &&
+               (has[INTENSITY] || !is_intensity_first || !areBytes (c + 1)))
         first = RED;
-      else if (!has_intensity)
+      else if (!has[INTENSITY])
         first = INTENSITY;
-      has_normal |= first == NORMAL_X;
-      has_color |= first == RED;
-      has_intensity |= first == INTENSITY;
+      has[first] = true;
       const std::size_t last = c + (first == NORMAL_X || first == RED ? 3 : 1);
       if (columns_[c].is_number)
         taken += (taken.empty () ? "" : ", ") + std::to_string (c + 1) +

@@ -49,6 +49,16 @@ isWord (std::string_view a, std::string_view b)
                      [] (char x, char y) { return lowerCase (x) == lowerCase (y); });
 }
 
+/// The beginning of a word or a line in a message, without what is not printable.
+inline std::string
+quoted (std::string_view line, std::size_t characters = 40)
+{
+  std::string text;
+  for (const char c : line.substr (0, characters))
+    text += c >= ' ' && c <= '~' ? c : '?';
+  return "'" + text + (line.size () > characters ? "..." : "") + "'";
+}
+
 /// Scans a text. Lines end with \n or \r\n, or with \r in a text without \n; words are separated by
 /// blanks and tabs. The mark that some programs put before UTF-8 is skipped.
 class TextScanner
@@ -156,10 +166,9 @@ private:
 
   [[noreturn]] void failNumber (std::string_view text) const
   {
-    constexpr std::size_t LONGEST = 40;
     if (text.empty ())
       fail ("it has fewer values than it must have");
-    fail ("'" + std::string (text.substr (0, LONGEST)) + "' is not a number of the right type");
+    fail (quoted (text) + " is not a number of the right type");
   }
 
   std::string_view text_;

@@ -5,8 +5,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t LONGEST_QUOTE = 40; // of a word in a message
-
 ScalarType
 vtkType (std::string_view name)
 {
@@ -17,8 +15,8 @@ vtkType (std::string_view name)
   if (const auto type =
           findType ([name] (const TypeNames& names, ScalarType) { return name == names.vtk; }))
     return *type;
-  throw ReadError ("it has coordinates or polygons of the type '" +
-                   std::string (name.substr (0, LONGEST_QUOTE)) + "', which cannot be read");
+  throw ReadError ("it has coordinates or polygons of the type " + quoted (name) +
+                   ", which cannot be read");
 }
 
 /// Finds sections by their names, so that what is between them need not be understood.
@@ -42,7 +40,7 @@ public:
     std::vector<Field> fields{{"x", type}, {"y", type}, {"z", type}};
     readArray ({&fields[0], &fields[1], &fields[2]}, points);
     if (has_polygons && find ("POLYGONS"))
-      readPolygons (PolygonFans (points, triangles));
+      readPolygons (points, triangles);
     const bool has_data = find ("POINT_DATA") && count () == points;
     const std::size_t data = at_;
     // Their order is that of who wrote them.
@@ -75,14 +73,12 @@ public:
       const std::size_t each = count ();
       addColumns ({"s", "t"}, each, vtkType (word ()));
     }
-    Cloud cloud = makeCloud (std::move (fields), points);
-    cloud.file = file_;
-    return cloud;
+    return makeCloud (std::move (fields), points);
   }
 
 private:
   // Two layouts: the length of each polygon before its corners; or, since VTK 9, where each begins.
-  void readPolygons (PolygonFans fans)
+  void readPolygons (std::size_t points, Triangles& triangles)
   {
     const std::size_t rows = count (), size = count (), before = at_;
     const bool has_offsets = word () == "OFFSETS";
@@ -98,19 +94,21 @@ private:
     readArray ({&corners}, size);
     const auto whole = static_cast<double> (size);
     double end = 0.0;
-    for (std::size_t polygon = 0; polygon + (has_offsets ? 1 : 0) < rows; ++polygon) {
+    std::vector<double> polygon;
+    for (std::size_t row = 0; row + (has_offsets ? 1 : 0) < rows; ++row) {
       double begin = end + 1.0;
       if (has_offsets) {
-        begin = offsets.asDouble (polygon);
-        end = offsets.asDouble (polygon + 1);
+        begin = offsets.asDouble (row);
+        end = offsets.asDouble (row + 1);
       }
       else if (end < whole)
         end = begin + corners.asDouble (static_cast<std::size_t> (end));
       if (!(begin >= 0.0 && begin <= end && end <= whole))
         throw ReadError ("the lengths of its polygons are wrong");
-      fans.begin ();
+      polygon.clear ();
       for (auto i = static_cast<std::size_t> (begin); i < static_cast<std::size_t> (end); ++i)
-        fans.add (corners.asDouble (i));
+        polygon.push_back (corners.asDouble (i));
+      addFan (polygon, points, triangles);
     }
   }
 
@@ -133,12 +131,8 @@ private:
     char* to = allocateRows (fields, rows).get (); // which the fields keep
     for (std::size_t row = 0; row < rows; ++row)
       for (const Field* field : fields)
-        visitType (field->type, [&] (auto value) {
-          for (std::size_t c = 0; c < field->count; ++c, to += sizeof value) {
-            value = number<decltype (value)> ();
-            std::memcpy (to, &value, sizeof value);
-          }
-        });
+        to = putValues (*field, to,
+                        [this] (auto tag, std::size_t) { return number<decltype (tag)> (); });
   }
 
   // Goes on after the name of a section, if there is one after this place.
@@ -169,8 +163,8 @@ private:
     T result;
     const std::string_view text = word ();
     if (!parseNumber (text, result))
-      throw ReadError ("in its " + section_ + ", '" + std::string (text.substr (0, LONGEST_QUOTE)) +
-                       "' is not a number of the right type");
+      throw ReadError ("in its " + section_ + ", " + quoted (text) +
+                       " is not a number of the right type");
     return result;
   }
 

@@ -35,45 +35,33 @@ public:
 
   std::string read (std::size_t bytes)
   {
-    if (is_raw_) {
-      decoded_ = text_.substr (0, bytes);
-      text_.remove_prefix (decoded_.size ());
+    constexpr std::string_view DIGITS =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string decoded (is_raw_ ? text_.substr (0, bytes) : "");
+    text_.remove_prefix (decoded.size ());
+    for (; decoded.size () < bytes && !is_raw_ && !text_.empty (); text_.remove_prefix (1)) {
+      const std::size_t digit = DIGITS.find (text_.front ());
+      if (digit == std::string_view::npos) {
+        bits_ = text_.front () == '=' ? 0 : bits_;
+        continue;
+      }
+      last_ = last_ << 6U | static_cast<std::uint32_t> (digit);
+      bits_ += 6;
+      if (bits_ >= 8) {
+        bits_ -= 8;
+        decoded += static_cast<char> (last_ >> bits_ & 255U);
+      }
     }
-    while (decoded_.size () < bytes && decodeGroup ()) {}
-    if (decoded_.size () < bytes)
+    if (decoded.size () < bytes)
       throw ReadError ("an array ends before its values do; it is truncated");
-    std::string rest = decoded_.substr (bytes);
-    decoded_.resize (bytes);
-    std::swap (decoded_, rest);
-    return rest;
+    return decoded;
   }
 
 private:
-  bool decodeGroup ()
-  {
-    static constexpr std::string_view DIGITS =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::uint32_t bits = 0;
-    std::size_t digits = 0, padding = 0;
-    for (; digits + padding < 4 && !is_raw_ && !text_.empty (); text_.remove_prefix (1)) {
-      const std::size_t digit = DIGITS.find (text_.front ());
-      padding += text_.front () == '=' ? 1 : 0;
-      if (digit == std::string_view::npos)
-        continue;
-      bits = bits << 6U | static_cast<std::uint32_t> (digit);
-      ++digits;
-    }
-    if (digits + padding < 4 || digits < 2)
-      return false;
-    bits <<= 6U * padding;
-    for (std::size_t i = 0; i + 1 < digits; ++i)
-      decoded_ += static_cast<char> (bits >> (16U - 8U * i) & 255U);
-    return true;
-  }
-
   std::string_view text_;
   bool is_raw_;
-  std::string decoded_; // of the last group, what has not been read
+  std::uint32_t last_ = 0; // digits
+  unsigned bits_ = 0;      // of them that belong to the next byte
 };
 
 class VtpParser
@@ -90,7 +78,7 @@ public:
     const std::string_view compressor = attributeOf (root_, "compressor");
     is_compressed_ = !compressor.empty ();
     if (is_compressed_ && compressor != "vtkZLibDataCompressor")
-      throw ReadError ("it is compressed by " + std::string (compressor.substr (0, 40)) +
+      throw ReadError ("it is compressed by " + quoted (compressor) +
                        ", which cannot be read; save it without, or with zlib");
   }
 

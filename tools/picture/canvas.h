@@ -24,6 +24,25 @@ struct Spot
   double weight;   ///< 1 over the distance from the viewer in perspective, else 1
 };
 
+/// The image with one pixel for each block of so many by so many, of their mean colour.
+inline ColourImage
+shrunk (const ColourImage& image, std::size_t factor)
+{
+  ColourImage small{image.width / factor, image.height / factor, {}};
+  for (std::size_t y = 0; y < small.height; ++y)
+    for (std::size_t x = 0; x < small.width; ++x) {
+      std::array<std::size_t, 3> sum{};
+      for (std::size_t i = 0; i < factor * factor; ++i)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          sum[channel] += image.pixels[(y * factor + i / factor) * image.width + x * factor +
+                                       i % factor][channel];
+      ColourImage::Pixel& mean = small.pixels.emplace_back ();
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        mean[channel] = static_cast<std::uint8_t> (sum[channel] / (factor * factor));
+    }
+  return small;
+}
+
 /// A white square on which triangles and lines hide each other.
 class Canvas
 {
@@ -31,7 +50,7 @@ public:
   /// \param side in pixels
   explicit Canvas (std::size_t side)
       : side_ (side), nearness_ (side * side, -std::numeric_limits<float>::infinity ()),
-        colours_ (side * side, {255, 255, 255})
+        image_{side, side, std::vector<ColourImage::Pixel> (side * side, {255, 255, 255})}
   {
   }
 
@@ -87,20 +106,7 @@ public:
     }
   }
 
-  /// Puts the canvas into an image, from column `left` on; each pixel is the mean of a block.
-  void copyTo (ColourImage& image, std::size_t left) const
-  {
-    const std::size_t factor = side_ / image.height;
-    for (std::size_t y = 0; y < image.height; ++y)
-      for (std::size_t x = 0; x < image.height; ++x)
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-          std::size_t sum = 0;
-          for (std::size_t i = 0; i < factor * factor; ++i)
-            sum += colours_[(y * factor + i / factor) * side_ + x * factor + i % factor][channel];
-          image.pixels[y * image.width + left + x][channel] =
-              static_cast<std::uint8_t> (sum / (factor * factor));
-        }
-  }
+  const ColourImage& image () const { return image_; }
 
 private:
   // The pixels whose middles are on either side of a place.
@@ -125,7 +131,7 @@ private:
   void paint (std::size_t pixel, const Colour& colour, double opacity = 1.0)
   {
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      std::uint8_t& value = colours_[pixel][channel];
+      std::uint8_t& value = image_.pixels[pixel][channel];
       const double wanted = 255.0 * colour[static_cast<Eigen::Index> (channel)];
       value = static_cast<std::uint8_t> (std::lround (value + opacity * (wanted - value)));
     }
@@ -138,7 +144,7 @@ private:
 
   std::size_t side_;
   std::vector<float> nearness_;
-  std::vector<ColourImage::Pixel> colours_;
+  ColourImage image_;
 };
 
 /// An image on a mesh, in a size in which its pixels are about as large as those of the canvas, so that
@@ -151,7 +157,7 @@ public:
   {
     constexpr double MOST = 1.5;
     for (; pixels > MOST && std::min (image_.width, image_.height) > 1; pixels /= 2.0)
-      image_ = halved (image_);
+      image_ = shrunk (image_, 2);
   }
 
   /// The colour at a place from 0 to 1, y upwards, averaged linearly between pixels.
@@ -175,21 +181,6 @@ public:
   }
 
 private:
-  static ColourImage halved (const ColourImage& image)
-  {
-    ColourImage half{image.width / 2, image.height / 2, {}};
-    for (std::size_t y = 0; y < half.height; ++y)
-      for (std::size_t x = 0; x < half.width; ++x) {
-        const auto* const above = &image.pixels[2 * y * image.width + 2 * x];
-        const auto* const below = above + image.width;
-        ColourImage::Pixel& mean = half.pixels.emplace_back ();
-        for (std::size_t i = 0; i < mean.size (); ++i)
-          mean[i] = static_cast<std::uint8_t> (
-              (above[0][i] + above[1][i] + below[0][i] + below[1][i]) / 4);
-      }
-    return half;
-  }
-
   ColourImage image_;
 };
 

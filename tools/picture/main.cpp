@@ -1,36 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl_floater_picture: draws a mesh and its parameterization into a PNG file.
-#include "atomic_file.h"
+#include "cloud_reader.h"
 #include "mesh_picture.h"
-
-#include <CLI/CLI.hpp>
+#include "small_tool.h"
 
 #include <filesystem>
-#include <iostream>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace {
-enum ExitCode : int
-{
-  DONE = 0,
-  USAGE = 1,
-  CANNOT_READ = 2,
-  NO_MEMORY = 3,
-  CANNOT_WRITE = 4
-};
+using pcl::floater::ColourImage;
 
-int
-fail (ExitCode code, const std::string& message)
+/// A checkerboard of 32 x 32 squares, of another colour in each of 8 x 8 fields: shows stretch, and
+/// what lies where.
+static ColourImage
+makeCheckerboard ()
 {
-  std::cerr << "pcl_floater_picture: " << message << "\n";
-  return code;
+  constexpr std::size_t SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
+  constexpr std::size_t SIDE = SQUARES * PIXELS, FIELD = SIDE / FIELDS;
+  ColourImage image{SIDE, SIDE, {}};
+  for (std::size_t row = 0; row < SIDE; ++row)
+    for (std::size_t x = 0; x < SIDE; ++x) {
+      const std::size_t y = SIDE - 1 - row, column = x / FIELD, line = y / FIELD; // of fields
+      const double right = static_cast<double> (column) / (FIELDS - 1);
+      const double up = static_cast<double> (line) / (FIELDS - 1);
+      const double shade = 255.0 * ((x / PIXELS + y / PIXELS) % 2 != 0 ? 0.45 : 1.0);
+      image.pixels.push_back ({static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
+                               static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
+                               static_cast<std::uint8_t> (shade * (1.0 - 0.25 * (right + up)))});
+    }
+  return image;
 }
-
-} // namespace
 
 int
 main (int argc, char** argv)
@@ -66,44 +67,30 @@ main (int argc, char** argv)
       ->delimiter (',')
       ->expected (3);
   app.add_flag ("--flat", is_flat, "one shade for each triangle, which shows bumps");
-  try {
-    app.parse (argc, argv);
-  }
-  catch (const CLI::ParseError& error) {
-    return app.exit (error) == 0 ? DONE : USAGE;
-  }
-
-  const bool has_texture = has_checkerboard || !texture.empty ();
-  if (has_texture && files.size () == 3)
-    return fail (USAGE, "give a PARAMETERIZATION, or --checkerboard or --texture, not both");
-  std::filesystem::path reading; // the file that is being read
-  try {
-    handleSignals ();
+  return runSmallTool (app, argc, argv, [&] {
+    const bool has_texture = has_checkerboard || !texture.empty ();
+    if (has_texture && files.size () == 3)
+      throw std::invalid_argument (
+          "give a PARAMETERIZATION, or --checkerboard or --texture, not both");
     requireWritable (files.back ());
     PictureOptions options;
     options.flat_shading = is_flat;
     if (!viewpoint.empty ())
       options.viewpoint.emplace (viewpoint[0], viewpoint[1], viewpoint[2]);
-    PictureMesh mesh = readPictureMesh (reading = files[0]);
-    if (has_texture && mesh.coordinates.empty ())
-      throw ReadError ("it has no texture coordinates; pcl_floater_reconstruct --uv writes some");
+    PictureMesh mesh = readNamed (files[0], [&] {
+      PictureMesh its = readPictureMesh (files[0]);
+      if (has_texture && its.coordinates.empty ())
+        throw ReadError ("it has no texture coordinates; pcl_floater_reconstruct --uv writes some");
+      return its;
+    });
     if (has_checkerboard)
       options.texture = makeCheckerboard ();
     else if (has_texture)
-      options.texture = parsePng (FileBytes (reading = texture));
+      options.texture = readNamed (
+          texture, [&] { return parsePng (FileBytes (std::filesystem::path (texture))); });
     if (files.size () == 3)
-      options.parameterization = readPictureMesh (reading = files[1]);
+      options.parameterization = readNamed (files[1], [&] { return readPictureMesh (files[1]); });
     writeFile (files.back (),
                pngOf (drawMesh (std::move (mesh), static_cast<std::size_t> (height), options)));
-  }
-  catch (const ReadError& error) {
-    return fail (CANNOT_READ, "cannot read '" + reading.string () + "': " + error.what ());
-  }
-  catch (const WriteError& error) {
-    return fail (CANNOT_WRITE, error.what ());
-  }
-  catch (const std::bad_alloc&) {
-    return fail (NO_MEMORY, "there is not enough memory");
-  }
-  return DONE;
+  });
 }

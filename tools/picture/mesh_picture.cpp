@@ -88,13 +88,10 @@ constexpr double NEARLY_PARALLEL = 0.8; // cosine
 constexpr double SMALLEST = 1e-9;       // half of the side of a picture
 constexpr double TIP_BACK = 50.0, FROM_ABOVE = 15.0, TURN = 20.0; // degrees
 
-Eigen::Vector3d
-centreOf (const std::vector<Eigen::Vector3d>& points)
+Eigen::Map<const Eigen::Matrix3Xd>
+asColumns (const std::vector<Eigen::Vector3d>& points)
 {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-  for (const Eigen::Vector3d& p : points)
-    sum += p;
-  return sum / static_cast<double> (points.size ());
+  return {points[0].data (), 3, static_cast<Eigen::Index> (points.size ())};
 }
 
 // Mean of the unit normals, weighted by area, on the outer side if the surface bulges. The longer
@@ -102,7 +99,7 @@ centreOf (const std::vector<Eigen::Vector3d>& points)
 Eigen::Vector3d
 meanNormal (const PictureMesh& mesh)
 {
-  const Eigen::Vector3d centre = centreOf (mesh.points);
+  const Eigen::Vector3d centre = asColumns (mesh.points).rowwise ().mean ();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
   double area = 0.0, volume = 0.0; // twice the area, six times the volume seen from the centre
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -120,11 +117,9 @@ meanNormal (const PictureMesh& mesh)
 Eigen::Vector3d
 axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
 {
-  const Eigen::Vector3d centre = centreOf (points);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
-  for (const Eigen::Vector3d& p : points)
-    covariance += (p - centre) * (p - centre).transpose ();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (covariance);
+  const auto columns = asColumns (points);
+  const Eigen::Matrix3Xd around = columns.colwise () - columns.rowwise ().mean ();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (around * around.transpose ());
   const Eigen::Vector3d axis = solver.eigenvectors ().col (0);
   return axis.sum () < 0.0 ? Eigen::Vector3d (-axis) : axis;
 }
@@ -169,9 +164,8 @@ Camera
 aimCamera (const View& view, const std::vector<Eigen::Vector3d>& points)
 {
   Camera camera = lookAlong (view);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : points)
-    box.extend (camera.axes * p);
+  const Eigen::Matrix3Xd seen = camera.axes * asColumns (points);
+  const Eigen::AlignedBox3d box (seen.rowwise ().minCoeff (), seen.rowwise ().maxCoeff ());
   camera.origin = camera.axes.transpose () * box.center ();
   camera.half_side = 0.5 * MARGIN * std::max ({box.sizes ().x (), box.sizes ().y (), SMALLEST});
   return camera;
@@ -184,13 +178,10 @@ std::optional<Camera>
 aimFromViewpoint (const Eigen::Vector3d& viewpoint, const std::vector<Eigen::Vector3d>& points)
 {
   constexpr double WIDEST = 60.0, ALONG_Z = 0.8; // degrees on either side; a cosine
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
-  for (const Eigen::Vector3d& p : points)
-    mean += (p - viewpoint).normalized ();
-  mean.normalize ();
-  double least = 1.0;
-  for (const Eigen::Vector3d& p : points)
-    least = std::min (least, mean.dot ((p - viewpoint).normalized ()));
+  const Eigen::Matrix3Xd rays =
+      (asColumns (points).colwise () - viewpoint).colwise ().normalized ();
+  const Eigen::Vector3d mean = rays.rowwise ().sum ().normalized ();
+  const double least = (mean.transpose () * rays).minCoeff ();
   if (!(least > std::cos (WIDEST * DEGREE)))
     return std::nullopt;
   const Eigen::Vector3d up = std::abs (mean.z ()) > ALONG_Z
@@ -330,25 +321,6 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
 } // namespace
 
 ColourImage
-makeCheckerboard ()
-{
-  constexpr std::size_t SQUARES = 32, FIELDS = 8, PIXELS = 32; // pixels along a square
-  constexpr std::size_t SIDE = SQUARES * PIXELS, FIELD = SIDE / FIELDS;
-  ColourImage image{SIDE, SIDE, {}};
-  for (std::size_t row = 0; row < SIDE; ++row)
-    for (std::size_t x = 0; x < SIDE; ++x) {
-      const std::size_t y = SIDE - 1 - row, column = x / FIELD, line = y / FIELD; // of fields
-      const double right = static_cast<double> (column) / (FIELDS - 1);
-      const double up = static_cast<double> (line) / (FIELDS - 1);
-      const double shade = 255.0 * ((x / PIXELS + y / PIXELS) % 2 != 0 ? 0.45 : 1.0);
-      image.pixels.push_back ({static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
-                               static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
-                               static_cast<std::uint8_t> (shade * (1.0 - 0.25 * (right + up)))});
-    }
-  return image;
-}
-
-ColourImage
 drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
 {
   const View from_above{Eigen::Vector3d::UnitZ (), Eigen::Vector3d::UnitY ()};
@@ -364,7 +336,12 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
     camera = aimCamera (chooseView (mesh), mesh.points);
   drawTriangles (canvas, mesh, *camera, options.texture,
                  options.flat_shading ? Shading::FLAT : Shading::SMOOTH);
-  canvas.copyTo (image, 0);
+  const auto copyTo = [&] (std::size_t left) {
+    const ColourImage panel = shrunk (canvas.image (), SUPERSAMPLING);
+    for (std::size_t row = 0; row < height; ++row)
+      std::copy_n (&panel.pixels[row * height], height, &image.pixels[row * image.width + left]);
+  };
+  copyTo (0);
 
   canvas = Canvas (SUPERSAMPLING * height);
   if (options.texture) {
@@ -382,7 +359,7 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
                flat.triangles.size () <= MOST_DRAWN_EDGES ? 1.0 : 0.2);
   }
   if (has_two_panels)
-    canvas.copyTo (image, height);
+    copyTo (height);
   return image;
 }
 

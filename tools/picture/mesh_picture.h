@@ -37,11 +37,6 @@ struct PictureOptions
                                             ///< degrees of one direction from there
 };
 
-/// A checkerboard of 32 x 32 squares, of another colour in each of 8 x 8 fields: shows stretch, and
-/// what lies where.
-ColourImage
-makeCheckerboard ();
-
 /// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
 /// are few. It is seen from the side to which most of it faces.
 /// \param height in pixels; mesh and parameterization are as wide each

@@ -204,34 +204,31 @@ checkPaths (const CommandLine& line)
         std::pair ("--loop", &line.loop), std::pair ("--parameterization", &line.parameterization)})
     if (isStandardStream (*path))
       throw UsageError (std::string (name) + " takes the name of a file, not -");
-  struct Named
-  {
-    const char* name;
-    const std::filesystem::path* path;
-    bool is_output;
-  };
   const std::filesystem::path materials = line.materials ();
   for (const std::filesystem::path* path : {&materials, &line.texture})
     if (path->filename ().string ().find_first_of ("\n\r") != std::string::npos)
       throw UsageError (
           "the name of the file of materials or of the texture has a line break in it, "
           "which files in OBJ cannot hold; choose another one");
-  const std::array<Named, 8> all{{{"INPUT", &line.input, false},
-                                  {"--loop", &line.loop, false},
-                                  {"OUTPUT", &line.output, true},
-                                  {"--parameterization", &line.parameterization, true},
-                                  {"--report", &line.report, true},
-                                  {"--html", &line.html, true},
-                                  {"the file of materials", &materials, true},
-                                  {"--texture", &line.texture, true}}};
-  for (std::size_t i = 0; i < all.size (); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (all[i].is_output && !all[i].path->empty () && !all[j].path->empty () &&
-          !isStandardStream (*all[i].path) && !isStandardStream (*all[j].path) &&
-          areSame (*all[i].path, *all[j].path))
-        throw UsageError (std::string (all[j].name) + " and " + all[i].name +
-                          " are the same file, '" + all[i].path->string () +
+  // The first two are inputs.
+  const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
+      {{"INPUT", line.input},
+       {"--loop", line.loop},
+       {"OUTPUT", line.output},
+       {"--parameterization", line.parameterization},
+       {"--report", line.report},
+       {"--html", line.html},
+       {"the file of materials", materials},
+       {"--texture", line.texture}}};
+  for (std::size_t i = 2; i < all.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto& [name, path] = all[i];
+      const auto& [other_name, other] = all[j];
+      if (!path.empty () && !other.empty () && !isStandardStream (path) &&
+          !isStandardStream (other) && areSame (path, other))
+        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
                           "'; give different ones");
+    }
   if (!line.meshFormat () && isStandardStream (line.output))
     throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
                       "--output-format ply");
@@ -242,9 +239,9 @@ checkPaths (const CommandLine& line)
   if (!line.parameterization.empty () && !meshFormatOf (line.parameterization))
     throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
                       unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
-  for (const Named& named : all)
-    if (named.is_output && !named.path->empty ())
-      requireWritable (*named.path);
+  for (std::size_t i = 2; i < all.size (); ++i)
+    if (!all[i].second.empty ())
+      requireWritable (all[i].second);
 }
 
 } // namespace pcl::floater

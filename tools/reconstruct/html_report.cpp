@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "html_report.h"
+#include "run_report.h"
 
 #include "core/geometry.h"
 #include "core/order_statistics.h"

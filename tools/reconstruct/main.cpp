@@ -3,7 +3,6 @@
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
 #include "heap.h"
-#include "html_report.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "report_json.h"
@@ -12,7 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
+#include <limits>
 #include <new>
 
 #include <sys/resource.h>
@@ -96,6 +95,29 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   return {std::move (flat), std::move (triangles)};
 }
 
+/// Whether to write 32-bit floats: unless doubles are asked for, or floats would put corners of a
+/// triangle together, of which a warning tells.
+bool
+writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
+{
+  if (line.precision != Precision::AUTO || cloud.single_precision)
+    return line.precision != Precision::DOUBLE;
+  constexpr double LARGEST = std::numeric_limits<float>::max ();
+  bool are_floats = true; // others must not be converted
+  for (std::size_t p = 0; p < cloud.size () && are_floats; ++p) {
+    const Eigen::Vector3d position = cloud.position (p);
+    are_floats = !position.allFinite () || position.lpNorm<Eigen::Infinity> () <= LARGEST;
+  }
+  if (are_floats && countMergedInSinglePrecision (cloud, triangles) == 0)
+    return true;
+  cloud.warnings.emplace_back ("the coordinates are written as doubles, since 32-bit numbers do "
+                               "not reach so far, or would put "
+                               "corners of a triangle together; PCL reads doubles of a .ply file "
+                               "into its points as 0: use --precision single or "
+                               "another format for PCL");
+  return false;
+}
+
 // The image as the file of materials names it: relative to its own folder, as readers expect it.
 std::string
 imageName (const CommandLine& line)
@@ -108,16 +130,6 @@ imageName (const CommandLine& line)
       .lexically_normal ()
       .lexically_proximate (folder)
       .generic_string ();
-}
-
-void
-checkTextureColours (const CommandLine& line, const Cloud& cloud)
-{
-  if (!line.texture.empty () && !colorFields (cloud)[0])
-    throw UsageError (
-        "--texture: the points of '" + line.input.string () +
-        "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for texture "
-        "coordinates alone");
 }
 
 /// Computes the coordinates that are asked for. If that fails, the result has no mesh any more, and
@@ -152,8 +164,12 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
 {
   std::vector<std::string> notes;
   if (const std::filesystem::path materials = line.materials (); !materials.empty ()) {
-    stageFile (materials, materialsText (imageName (line)), files);
-    if ((materials.filename ().string () + imageName (line)).find (' ') != std::string::npos)
+    const std::string image = imageName (line);
+    stageFile (materials,
+               "newmtl surface\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1\n" +
+                   (image.empty () ? "" : "map_Kd " + image + "\n"),
+               files);
+    if ((materials.filename ().string () + image).find (' ') != std::string::npos)
       notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
                           "which many readers of OBJ files do not take");
   }
@@ -196,8 +212,10 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
       point = cloud.pointOf (point);
     for (std::string& note : stageTexture (line, cloud, result.triangles, run.texture, files))
       result.report.warnings.push_back (std::move (note));
+    std::vector<std::uint32_t> points = run.texture.points; // points on seams are doubled
+    points.erase (std::unique (points.begin (), points.end ()), points.end ());
     if (line.meshFormat () != MeshFormat::OBJ)
-      run.vertices = countVertices (cloud, run.texture);
+      run.vertices += run.texture.points.size () - points.size ();
   }
   stage (line.output, cloud, result.triangles, line.meshFormat (),
          line.texture_coordinates ? &run.texture : nullptr);
@@ -238,10 +256,13 @@ run (CommandLine line)
   auto start = std::chrono::steady_clock::now ();
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
-  Cloud cloud = readNamed (line.input, [&] {
-    return readCloud (line.input, line.cloudFormat (), readOptionsOf (line));
-  });
-  checkTextureColours (line, cloud);
+  Cloud cloud = readNamed (
+      line.input, [&] { return readCloud (line.input, readOptionsOf (line), line.input_format); });
+  if (!line.texture.empty () && !colorFields (cloud)[0])
+    throw UsageError (
+        "--texture: the points of '" + line.input.string () +
+        "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for texture "
+        "coordinates alone");
   RunFigures figures;
   Input input = prepareInput (line, cloud, figures);
   figures.read_seconds = secondsSince (start);

@@ -196,27 +196,6 @@ prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures, double kept_
   return input;
 }
 
-bool
-writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
-{
-  if (line.precision != Precision::AUTO || cloud.single_precision)
-    return line.precision != Precision::DOUBLE;
-  constexpr double LARGEST = std::numeric_limits<float>::max ();
-  bool are_floats = true; // others must not be converted
-  for (std::size_t p = 0; p < cloud.size () && are_floats; ++p) {
-    const Eigen::Vector3d position = cloud.position (p);
-    are_floats = !position.allFinite () || position.lpNorm<Eigen::Infinity> () <= LARGEST;
-  }
-  if (are_floats && countMergedInSinglePrecision (cloud, triangles) == 0)
-    return true;
-  cloud.warnings.emplace_back ("the coordinates are written as doubles, since 32-bit numbers do "
-                               "not reach so far, or would put "
-                               "corners of a triangle together; PCL reads doubles of a .ply file "
-                               "into its points as 0: use --precision single or "
-                               "another format for PCL");
-  return false;
-}
-
 void
 replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
 {

@@ -14,19 +14,6 @@ constexpr const char* DEGREES =
     "x and y seem to be degrees of longitude and latitude, and z metres: "
     "distances make no sense so";
 
-/// Calls read (), and adds the name of the file to a ReadError.
-template <typename Read>
-auto
-readNamed (const std::filesystem::path& path, Read&& read)
-{
-  try {
-    return read ();
-  }
-  catch (const ReadError& error) {
-    throw ReadError ("cannot read " + inputName (path) + ": " + error.what ());
-  }
-}
-
 /// \param kept_per_point see leastMemory
 /// \throws UsageError if so many points cannot be kept below the limit
 void
@@ -49,11 +36,6 @@ readOptionsOf (const CommandLine& line)
 Input
 prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures,
               double kept_per_point = KEPT_PER_POINT);
-
-/// Whether to write 32-bit floats: unless doubles are asked for, or floats would put corners of a
-/// triangle together, of which a warning tells.
-bool
-writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud);
 
 /// Gives the cloud the fields nx, ny and nz of 32-bit floats, with the normals of the vertices of
 /// the mesh (see vertexNormals ()), in place of those that it has. All points must be left.

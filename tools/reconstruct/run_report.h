@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report of the tool on a run, as JSON.
+// The report of the tool on a run, as JSON, as text, and as a page.
 #pragma once
 
 #include "command_line.h"
 
-#include <pcl/surface/floater/report.h>
+#include <pcl/surface/floater/reconstruct.h>
 #include <pcl/surface/floater/texture_coordinates.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -57,6 +57,17 @@ reportJson (const CommandLine& command_line, const Report& report, const RunFigu
 /// The same as text, with one line for each of its keys.
 std::string
 reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
+
+/// The report as one page of HTML that refers to nothing outside: outcome, figures, histograms,
+/// findings and uncertain decisions with their places, and the mesh, drawn by WebGL. All that
+/// depends on the run is in one JSON text, which holds the report of reportJson () without its lists
+/// of points. Meshes of more than CommandLine::shown_triangles are thinned, but for triangles with
+/// flaws. O(n log n); takes 200 bytes per point, and the text up to 24 MB.
+/// \param cloud  the cloud, from which points without finite coordinates may have been removed
+/// \param result its triangles are indices into the cloud; none: the points are shown
+std::string
+htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
+            const RunFigures& run);
 
 /// Prints errors and warnings to the standard error stream, the summary and the line of --json to
 /// the standard output. Comes before any output file is visible: if nothing can be printed, no file

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace pcl::floater {
@@ -17,8 +16,7 @@ std::string
 plain (const std::string& word)
 {
   std::string text = word.substr (std::min (word.find_first_not_of ('-'), word.size ()));
-  std::transform (text.begin (), text.end (), text.begin (),
-                  [] (unsigned char c) { return std::tolower (c); });
+  std::transform (text.begin (), text.end (), text.begin (), lowerCase);
   return text;
 }
 
