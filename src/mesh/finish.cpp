@@ -59,7 +59,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
           remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
                        *finish.crossing, settings.limits.remaking, run);
     if (finish.remade_points > 0) {
-      if (flipFolds (mesh, positions, *finish.crossing, run) > 0)
+      if (flipFolds (mesh, positions, geometry.meshSpacing (), *finish.crossing, run) > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
       finish.folds = findFolds (mesh, positions, run).size ();
     }

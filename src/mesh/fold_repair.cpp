@@ -267,10 +267,12 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 
 std::size_t
 flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const std::vector<CrossingPair>& crossing, const RunContext& run)
+           const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
+           const RunContext& run)
 {
   constexpr double OF_FOLD = 10.0; // more than the bends of five edges
-  constexpr double NEEDLE = 1e-3;  // doubled area over the sum of the squared edges
+  constexpr double NEEDLE = 1e-3;  // doubled area over the squared longest edge
+  constexpr double LONGEST = 3.0;  // edge, in spacings
   constexpr double IMPROVES = 1e-6;
   constexpr int MOST_PASSES = 12; // few folds change after five
   CrossingTable table (mesh, positions, crossing, run);
@@ -284,12 +286,16 @@ flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     return std::max (0.0, -one.normalized ().dot (other.normalized ())) +
            (isFold (one, other) ? OF_FOLD : 0.0);
   };
-  const auto isNeedle = [&] (Index t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    return areaVectorOf (mesh.triangles[t], positions).norm () <
-           NEEDLE * ((positions[a] - positions[b]).squaredNorm () +
-                     (positions[b] - positions[c]).squaredNorm () +
-                     (positions[c] - positions[a]).squaredNorm ());
+  // Whether a triangle has an edge of many spacings, or is a needle.
+  const auto isLong = [&] (Index t) {
+    double longest = 0.0, spacings = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index p = mesh.triangles[t][i], q = mesh.triangles[t][(i + 1) % 3];
+      longest = std::max (longest, (positions[q] - positions[p]).norm ());
+      spacings += static_cast<double> (spacing[p]) / 3.0;
+    }
+    return longest > LONGEST * spacings ||
+           areaVectorOf (mesh.triangles[t], positions).norm () < NEEDLE * longest * longest;
   };
   // Flips an edge if that lowers the sum of bends around its two triangles.
   const auto flip = [&] (MeshEdge e) {
@@ -306,7 +312,7 @@ flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     const double before = bends ();
     mesh.recordChanges ();
     mesh.flip (e);
-    if (bends () < before - IMPROVES && !isNeedle (t) && !isNeedle (u) &&
+    if (bends () < before - IMPROVES && !isLong (t) && !isLong (u) &&
         table.tryChange ({t, u}, 1) <= 0) {
       table.accept ({t, u});
       return true;

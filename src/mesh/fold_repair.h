@@ -51,12 +51,13 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
            const RunContext& run);
 
 /// Flips folded edges, and edges beside them, as long as each flip leaves fewer folds and no
-/// crossing pair more. O(n) for the table of crossing pairs.
+/// crossing pair more, and its triangles have no edge of more than 3 spacings. O(n) for the table of crossing pairs.
 /// \param crossing all pairs of the mesh
 /// \return number of flips
 std::size_t
 flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const std::vector<CrossingPair>& crossing, const RunContext& run);
+           const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
+           const RunContext& run);
 
 /// Moves vertices that are in the wrong triangles, for example where the parameterization mixed up
 /// their order or where they were connected to another sheet. No single flip lowers the cost there.

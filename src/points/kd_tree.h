@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -268,8 +269,8 @@ private:
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero (); // of the ball
   double radius_ = -1.0;                              // of the ball; negative: there is none
   std::vector<Index> ball_;                           // points in the ball, and their coordinates
-  Eigen::Array<double, Eigen::Dynamic, 3> places_;
-  Eigen::ArrayXd sqr_distances_; // of these to the query
+  std::array<std::vector<double>, 3> places_;
+  std::vector<double> sqr_distances_; // of these to the query
   std::vector<Neighbor> near_;   // points within reach, unordered
 };
 

@@ -15,7 +15,7 @@ SQUARE = np.zeros((9, 3))
 
 # A value of each option that is not its default. That it arrives is enough here: what it does is tested in the core.
 VALUES = dict(
-    threads=1, blocks=3, method="tw385", topology="disc", holes="close-all", kept_loops=3, largest_hole=2.5,
+    threads=1, method="tw385", topology="disc", holes="close-all", kept_loops=3, largest_hole=2.5,
     largest_hole_length=2.5, viewpoint=[10, 10, 100], facing="up", max_edge=9.5, max_edge_ratio=9.5, min_component=10,
     remove_outliers=False, scatter="drop", denoise=False, flips=False, uncross=False, open_crossings=True, neighbors=12,
     neighborhood="ball-delaunay", ball_radius=3.5, sheet_filter=False, boundary="two-segments", opening_angle=120.5,

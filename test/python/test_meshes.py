@@ -35,7 +35,7 @@ def test_mesh_and_report_are_those_of_the_tool(torus_points, tool, dtype):
 
 
 def test_disc_is_that_of_the_tool(terrain_points, tool):
-    arguments = dict(method="tw385", boundary="consensus", ordering="metis", threads=2, blocks=7)
+    arguments = dict(method="tw385", boundary="consensus", ordering="metis", threads=2)
     triangles, report = tool(terrain_points, *[f"--{name}={value}" for name, value in arguments.items()])
     mesh = pcl_floater.reconstruct(terrain_points, **arguments)
     assert np.array_equal(mesh.triangles, triangles)

@@ -113,7 +113,7 @@ def test_options_reach_the_run_and_the_report(cloud):
             "cluster-neighbors 12", "domain polygon", "sides 5", "spacing centripetal", "weights uniform",
             "solver bicgstab-ilut", "tolerance 1e-10", "max-iterations 100", "ilut-fill 20", "ilut-drop 0.001",
             "ordering metis", "facing outwards", "facing up", "flips off", "uncross off", "open-crossings on",
-            "threads 2", "blocks 3")):
+            "threads 2")):
         key = option.replace("-", "_")
         try:
             expected = json.loads(f"[{value}]" if "," in value else value)
