@@ -70,7 +70,6 @@ def reconstruct(
     progress: Optional[Callable[[str, float], object]] = None,
     # doc/make_options.py writes these.
     threads: int = 0,
-    blocks: int = 0,
     method: Literal["auto", "tw385"] = "auto",
     topology: Literal["auto", "disc", "surface"] = "auto",
     holes: Literal["auto", "close-all", "keep-largest", "keep-count", "by-size"] = "auto",
