@@ -271,7 +271,7 @@ private:
   std::vector<Index> ball_;                           // points in the ball, and their coordinates
   std::array<std::vector<double>, 3> places_;
   std::vector<double> sqr_distances_; // of these to the query
-  std::vector<Neighbor> near_;   // points within reach, unordered
+  std::vector<Neighbor> near_;        // points within reach, unordered
 };
 
 } // namespace pcl::floater
