@@ -285,6 +285,7 @@ std::vector<BoundaryLoop*>
 fromLargest (std::vector<BoundaryLoop>& loops, Key&& key)
 {
   std::vector<BoundaryLoop*> order;
+  order.reserve (loops.size ());
   for (BoundaryLoop& loop : loops)
     order.push_back (&loop);
   std::stable_sort (

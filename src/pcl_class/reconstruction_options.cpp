@@ -26,6 +26,8 @@ namespace pcl::floater {
     return data_->member;                                                                          \
   }
 
+// The macros name all parameters alike.
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name)
 // clang-format off
 PCL_FLOATER_OPTION (Topology, Topology, options.topology)
 PCL_FLOATER_OPTION (HolePolicy, HolePolicy, options.holes.policy)
@@ -53,6 +55,7 @@ PCL_FLOATER_CALLBACK (StageCallback, std::function<void (Stage)>, options.stage_
 PCL_FLOATER_CALLBACK (ProgressCallback, std::function<void (double)>, options.progress_callback)
 PCL_FLOATER_CALLBACK (CancelledCallback, std::function<bool ()>, options.cancelled_callback)
 // clang-format on
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)
 #undef PCL_FLOATER_OPTION
 #undef PCL_FLOATER_CALLBACK
 

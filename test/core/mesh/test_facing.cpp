@@ -56,6 +56,9 @@ forms ()
       {"hills", terrain ([] (double u, double v) {
          return 0.1 * std::sin (9.0 * u) * std::cos (7.0 * v) + 0.3 * u;
        })},
+      {"folds in a valley", terrain ([] (double u, double v) {
+         return 0.2 * std::sin (12.0 * u) + 0.7 * std::pow (std::hypot (u - 0.5, v - 0.5), 2.0);
+       })},
       {"steep folds", terrain ([] (double u, double v) {
          return 0.3 * std::sin (12.0 * u) + 0.02 * std::sin (9.0 * v);
        })},
