@@ -7,10 +7,10 @@
 
 namespace pcl::floater {
 // A setter and a getter of a member of the data.
-#define PCL_FLOATER_OPTION(Name, Type, member)                                                     \
-  void ReconstructionState::set##Name (Type value)                                                 \
+#define PCL_FLOATER_OPTION(Name, Type, parameter, member)                                          \
+  void ReconstructionState::set##Name (Type parameter)                                             \
   {                                                                                                \
-    data_->member = value;                                                                         \
+    data_->member = parameter;                                                                     \
   }                                                                                                \
   Type ReconstructionState::get##Name () const                                                     \
   {                                                                                                \
@@ -26,36 +26,33 @@ namespace pcl::floater {
     return data_->member;                                                                          \
   }
 
-// The macros name all parameters alike.
-// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name)
 // clang-format off
-PCL_FLOATER_OPTION (Topology, Topology, options.topology)
-PCL_FLOATER_OPTION (HolePolicy, HolePolicy, options.holes.policy)
-PCL_FLOATER_OPTION (ComputeTextureCoordinates, bool, computes_texture)
-PCL_FLOATER_OPTION (LargestStretch, double, largest_stretch)
-PCL_FLOATER_OPTION (KeptLoops, int, options.holes.kept_loops)
-PCL_FLOATER_OPTION (ViewUse, ViewUse, options.view.use)
-PCL_FLOATER_OPTION (Facing, Facing, options.facing)
-PCL_FLOATER_OPTION (MaximumEdgeLength, double, options.trimming.maximum_edge_length)
-PCL_FLOATER_OPTION (MaximumEdgeRatio, double, options.trimming.maximum_edge_ratio)
-PCL_FLOATER_OPTION (OpenSelfIntersections, bool, options.trimming.open_self_intersections)
-PCL_FLOATER_OPTION (MinimumComponentSize, int, options.trimming.minimum_component_size)
-PCL_FLOATER_OPTION (RemoveOutliers, bool, options.remove_outliers)
-PCL_FLOATER_OPTION (ScatterPolicy, ScatterPolicy, options.scatter)
-PCL_FLOATER_OPTION (Denoise, bool, options.denoise)
-PCL_FLOATER_OPTION (KSearch, int, options.neighbors.k)
-PCL_FLOATER_OPTION (Neighborhood, Neighborhood, options.neighbors.kind)
-PCL_FLOATER_OPTION (BallRadius, double, options.neighbors.ball_radius)
-PCL_FLOATER_OPTION (UseInputNormals, bool, use_input_normals)
-PCL_FLOATER_OPTION (ComputeNormals, bool, compute_normals)
-PCL_FLOATER_OPTION (FilterSheets, bool, options.filter_sheets)
-PCL_FLOATER_OPTION (FlipEdges, bool, options.flip_edges)
-PCL_FLOATER_OPTION (RemoveSelfIntersections, bool, options.remove_self_intersections)
+PCL_FLOATER_OPTION (Topology, Topology, topology, options.topology)
+PCL_FLOATER_OPTION (HolePolicy, HolePolicy, policy, options.holes.policy)
+PCL_FLOATER_OPTION (ComputeTextureCoordinates, bool, compute, computes_texture)
+PCL_FLOATER_OPTION (LargestStretch, double, stretch, largest_stretch)
+PCL_FLOATER_OPTION (KeptLoops, int, loops, options.holes.kept_loops)
+PCL_FLOATER_OPTION (ViewUse, ViewUse, use, options.view.use)
+PCL_FLOATER_OPTION (Facing, Facing, facing, options.facing)
+PCL_FLOATER_OPTION (MaximumEdgeLength, double, length, options.trimming.maximum_edge_length)
+PCL_FLOATER_OPTION (MaximumEdgeRatio, double, spacings, options.trimming.maximum_edge_ratio)
+PCL_FLOATER_OPTION (OpenSelfIntersections, bool, open, options.trimming.open_self_intersections)
+PCL_FLOATER_OPTION (MinimumComponentSize, int, points, options.trimming.minimum_component_size)
+PCL_FLOATER_OPTION (RemoveOutliers, bool, remove_outliers, options.remove_outliers)
+PCL_FLOATER_OPTION (ScatterPolicy, ScatterPolicy, policy, options.scatter)
+PCL_FLOATER_OPTION (Denoise, bool, denoise, options.denoise)
+PCL_FLOATER_OPTION (KSearch, int, k, options.neighbors.k)
+PCL_FLOATER_OPTION (Neighborhood, Neighborhood, neighborhood, options.neighbors.kind)
+PCL_FLOATER_OPTION (BallRadius, double, spacings, options.neighbors.ball_radius)
+PCL_FLOATER_OPTION (UseInputNormals, bool, use, use_input_normals)
+PCL_FLOATER_OPTION (ComputeNormals, bool, compute, compute_normals)
+PCL_FLOATER_OPTION (FilterSheets, bool, filter_sheets, options.filter_sheets)
+PCL_FLOATER_OPTION (FlipEdges, bool, flip_edges, options.flip_edges)
+PCL_FLOATER_OPTION (RemoveSelfIntersections, bool, remove, options.remove_self_intersections)
 PCL_FLOATER_CALLBACK (StageCallback, std::function<void (Stage)>, options.stage_callback)
 PCL_FLOATER_CALLBACK (ProgressCallback, std::function<void (double)>, options.progress_callback)
 PCL_FLOATER_CALLBACK (CancelledCallback, std::function<bool ()>, options.cancelled_callback)
 // clang-format on
-// NOLINTEND(readability-inconsistent-declaration-parameter-name)
 #undef PCL_FLOATER_OPTION
 #undef PCL_FLOATER_CALLBACK
 
