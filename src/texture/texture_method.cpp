@@ -157,7 +157,7 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   result.seam_length *= unit;
   std::vector<Eigen::Vector2d> uv;
   for (const Eigen::Vector2f& rounded : result.coordinates)
-    uv.push_back (rounded.cast<double> ());
+    uv.emplace_back (rounded.cast<double> ());
   const StretchSums sums = stretchOf (triangles, places, result.corners, uv);
   result.stretch = sums.mean ();
   result.largest_stretch = sums.largest ();

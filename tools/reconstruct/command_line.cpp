@@ -226,8 +226,12 @@ checkPaths (const CommandLine& line)
       const auto& [other_name, other] = all[j];
       if (!path.empty () && !other.empty () && !isStandardStream (path) &&
           !isStandardStream (other) && areSame (path, other))
-        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
-                          "'; give different ones");
+        throw UsageError (std::string (other_name)
+                              .append (" and ")
+                              .append (name)
+                              .append (" are the same file, '")
+                              .append (path.string ())
+                              .append ("'; give different ones"));
     }
   if (!line.meshFormat () && isStandardStream (line.output))
     throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
