@@ -254,11 +254,12 @@ SequentialSearch::searchBall (const Eigen::Vector3d& query, double reach)
   const std::size_t count = ball_.size ();
   // The same sum as in the tree: the order of neighbours depends on the last bit.
   sqr_distances_.resize (count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = places_[0][i] - query.x (), y = places_[1][i] - query.y (),
-                 z = places_[2][i] - query.z ();
-    sqr_distances_[i] = x * x + y * y + z * z;
-  }
+  const auto array = [count] (std::vector<double>& values) {
+    return Eigen::Map<Eigen::ArrayXd> (values.data (), static_cast<Eigen::Index> (count));
+  };
+  array (sqr_distances_) = (array (places_[0]) - query.x ()).square () +
+                           (array (places_[1]) - query.y ()).square () +
+                           (array (places_[2]) - query.z ()).square ();
   near_.resize (count + 1);
   // The last neighbour is mostly about as far as for the previous query.
   for (const double within : {std::min (reach, EXPECTED * last_reach_), reach}) {
