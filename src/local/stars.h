@@ -75,8 +75,9 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
            const StarSettings& settings, const RunContext& run,
            const BeyondNeighbors* beyond = nullptr);
 
-/// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum around, then removes far neighbours
-/// across a hole again: those too far for the reach of both ends.
+/// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum
+/// around, then removes far neighbours across a hole again: those too far for the reach of both
+/// ends.
 /// \param begun results of makeStars ()
 Stars
 finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,

@@ -271,7 +271,7 @@ flipFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
            const RunContext& run)
 {
   constexpr double OF_FOLD = 10.0; // more than the bends of five edges
-  constexpr double NEEDLE = 1e-3;  // doubled area over the squared longest edge
+  constexpr double NEEDLE = 1e-3;  // height over longest edge, as CheckLimits::flat_height
   constexpr double LONGEST = 3.0;  // edge, in spacings
   constexpr double IMPROVES = 1e-6;
   constexpr int MOST_PASSES = 12; // few folds change after five

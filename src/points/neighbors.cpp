@@ -25,7 +25,8 @@ emptyLists (std::size_t points, std::size_t rows, int k)
   return lists;
 }
 
-// Searches a tree for the k nearest of the rows, without themselves. NONE for missing ones: points whose squared distance underflows may push them out of the results.
+// Searches a tree for the k nearest of the rows, without themselves. NONE for missing ones: points
+// whose squared distance underflows may push them out of the results.
 // \param block of which the tree is; nullptr: of all positions
 void
 searchTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions,

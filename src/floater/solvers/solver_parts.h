@@ -61,10 +61,10 @@ Residual
 measureResidual (const LinearSystem& system, Eigen::Index side,
                  const Eigen::Ref<const Eigen::VectorXd>& solution);
 
-/// An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T:
-/// row i of the reordered system becomes the row of the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow the
-/// elimination tree. METIS draws from rand (), of which it gets a state of its own; another thread
-/// that draws meanwhile changes the order, so that only one thread is in METIS at a time.
+/// An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T.
+/// indices () [i] is the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow
+/// the elimination tree. METIS draws from rand (), of which it gets a state of its own; another
+/// thread that draws meanwhile changes the order, so that only one thread is in METIS at a time.
 /// \param ordering AMD, METIS or REVERSE_CUTHILL_MCKEE
 /// \throws std::bad_alloc
 Eigen::PermutationMatrix<Eigen::Dynamic>
