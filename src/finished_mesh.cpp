@@ -3,8 +3,8 @@
 #include "finished_mesh.h"
 
 #include "cloud_geometry.h"
+#include "mesh/flaw_repair.h"
 #include "mesh/flips.h"
-#include "mesh/self_intersection_removal.h"
 #include "mesh/vertex_splits.h"
 #include "report/report_mesh.h"
 #include "report/verdict.h"
@@ -12,20 +12,6 @@
 #include <utility>
 
 namespace pcl::floater {
-namespace {
-// Examines the mesh, and finds self-intersections. Skips them for views: the search would take a
-// quarter of the time, and noise along the rays makes true surfaces cross themselves.
-MeshExamination
-examineWithCrossing (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-                     const Request& request)
-{
-  MeshExamination found = examine (mesh, points, geometry, request);
-  checkCrossing (mesh.triangles, points, request.run, found);
-  return found;
-}
-
-} // namespace
-
 MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request)
@@ -58,31 +44,20 @@ addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
 }
 
 void
-uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics, std::optional<CrossingPairs> known)
+repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
+              const Request& request, MeshFinish& finish)
 {
-  checkCrossing (mesh.triangles, points, request.run, found, std::move (known));
-  statistics.self_intersections_found = found.crossing.size ();
-  // Where noisy points were projected, the true triangles cross each other.
-  if (found.crossing.empty () || !found.crossing.untested.empty () ||
-      !request.options.remove_self_intersections || !request.options.flip_edges ||
-      !points.projected.empty ())
+  finish.crossing = findSelfIntersections (mesh.triangles, all.positions, request.run);
+  if (!repairsFlaws (request.options))
     return;
-  if (geometry.neighbors.rows () == 0)
-    geometry.neighbors =
-        findNeighbors (points, neighborSettings (request.options, nullptr), request.run);
-  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
-  orientNormals (mesh, points.positions, normals, request.run);
-  const TriangleCost cost (points.positions, normals, &geometry.meshSpacing (),
-                           request.limits.surface.finish.cost);
-  const Uncrossing done =
-      removeSelfIntersections (mesh, found.crossing, geometry.neighbors, cost, points.positions,
-                               request.limits.uncrossing, request.run);
-  statistics.self_intersection_flips = done.flips;
-  statistics.self_intersection_moves = done.moves;
-  statistics.self_intersection_rebuilds = done.rebuilds;
-  if (done.hasChanged ())
-    found = examineWithCrossing (mesh, points, geometry, request);
+  geometry.neighbors =
+      findNeighbors (all, neighborSettings (request.options, nullptr), request.run);
+  const FinishLimits& limits = request.limits.surface.finish;
+  orientNormals (mesh, all.positions, geometry.stars.normals, request.run);
+  const TriangleCost cost (all.positions, geometry.stars.normals, &geometry.meshSpacing (),
+                           limits.cost);
+  finish.repairs += repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, all.positions,
+                                 Repair::AT_THE_END, limits.repair, request.run);
 }
 
 Problem
@@ -100,8 +75,9 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
         trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
     std::vector<Index> unused = std::move (found.unused); // without points that trimming leaves
                                                           // unused
-    found = report.is_view ? examine (mesh, points, geometry, request)
-                           : examineWithCrossing (mesh, points, geometry, request);
+    found = examine (mesh, points, geometry, request);
+    if (!report.is_view) // noise along the rays makes true surfaces cross themselves
+      checkCrossing (mesh.triangles, points, request.run, found);
     found.unused = std::move (unused);
     if (trimming.triangles > 0)
       report.loop.clear ();
@@ -116,6 +92,10 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
   report.statistics.remade_points = finish.remade_points;
+  report.statistics.self_intersections_found = finish.pairs_found;
+  report.statistics.self_intersection_flips = finish.repairs.flips;
+  report.statistics.self_intersection_moves = finish.repairs.moves;
+  report.statistics.self_intersection_rebuilds = finish.repairs.rebuilds;
   report.statistics.triangles = triangles.size ();
   report.check.largest_area_share = largestAreaShare (triangles, points.positions);
   for (Triangle& triangle : triangles)

@@ -27,12 +27,12 @@ Points
 addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
             const Request& request);
 
-/// Finds self-intersections. If there are any, changes the mesh and examines it again.
-/// \param known all crossing pairs of the mesh, if they were found before
+/// Repairs the flaws that came with the points that were set aside.
+/// \param all            as addStacked () returned it
+/// \param[in,out] finish gets the crossing pairs, and the repairs
 void
-uncross (TriangleMesh& mesh, MeshExamination& found, const Points& points, LocalGeometry& geometry,
-         const Request& request, Statistics& statistics,
-         std::optional<CrossingPairs> known = std::nullopt);
+repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
+              const Request& request, MeshFinish& finish);
 
 /// Makes the result of a mesh, and reports it. The end of every way.
 /// \return INTERNAL_ERROR unless it is an oriented manifold; DEGENERATE if no triangle is left

@@ -81,7 +81,7 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
   if (disc.problem)
     return disc.problem;
   MeshExamination found = examine (disc.mesh, points, geometry, request);
-  uncross (disc.mesh, found, points, geometry, request, result.report.statistics);
+  checkCrossing (disc.mesh.triangles, points, request.run, found, std::move (disc.finish.crossing));
   if (Problem problem = checkDisc (found, disc.boundary.loop))
     return problem;
   return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
@@ -93,19 +93,20 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
 {
   const Options& options = request.options;
   Report& report = result.report;
-  const SurfaceSettings settings{options.holes, options.flip_edges,
-                                 options.flip_edges && options.remove_self_intersections,
+  const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
                                  request.limits.surface, facingHints (points, request)};
   Surface surface = makeSurface (points, geometry, settings, request.run);
   report.topology = Topology::SURFACE;
   reportLoops (points, surface, report);
   std::optional<Points> all;
-  if (!points.stacked.of.empty ())
+  if (!points.stacked.of.empty ()) {
     all = addStacked (surface.mesh, points, geometry, request);
+    repairSplits (surface.mesh, *all, geometry, request, surface.finish);
+  }
   const Points& vertices = all ? *all : points;
   MeshExamination found = examine (surface.mesh, vertices, geometry, request);
-  uncross (surface.mesh, found, vertices, geometry, request, report.statistics,
-           all ? std::nullopt : std::move (surface.finish.crossing));
+  checkCrossing (surface.mesh.triangles, vertices, request.run, found,
+                 std::move (surface.finish.crossing));
   return useMesh (std::move (surface.mesh), surface.finish, found, vertices, geometry, request,
                   result);
 }

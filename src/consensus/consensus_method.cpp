@@ -173,8 +173,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   FinishSettings finish;
   finish.flip_edges = settings.flip_edges;
   finish.open_boundary = true;
-  finish.find_crossing = true;
-  finish.remake_sheets = settings.remake_sheets;
+  finish.repair = finish.remake_sheets = settings.repair;
   finish.facing = settings.facing;
   finish.limits = limits.finish;
   if (settings.holes.policy != HolePolicy::AUTO && settings.holes.policy != HolePolicy::CLOSE_ALL)

@@ -52,8 +52,8 @@ consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometr
 struct SurfaceSettings
 {
   HoleOptions holes = {};
-  bool flip_edges = true;    ///< flip edges and repair folds
-  bool remake_sheets = true; ///< make zones anew where several sheets are near
+  bool flip_edges = true;
+  bool repair = true; ///< repair flaws, and make zones anew where several sheets are near
   SurfaceLimits limits = {};
   FacingHints facing = {};
 };
@@ -70,7 +70,8 @@ struct Surface
                                           ///< findOrientationSeam); otherwise empty
 };
 
-/// Makes the consensus mesh, fills holes, inserts missing points, flips edges and repairs folds.
+/// Makes the consensus mesh, fills holes, inserts missing points, flips edges and
+/// repairs flaws.
 /// Stages CONSENSUS, HOLES and FLIPS. Triangles and holes are chosen by the working positions; the
 /// mesh is finished by the input positions. O(n log n).
 /// \param geometry in: of the points; out: without stars, but with their normals, oriented like the

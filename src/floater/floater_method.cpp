@@ -236,10 +236,14 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
   // edges are flipped in space.
   run.beginStage (Stage::FLIPS);
-  disc.finish = finishMesh (disc.mesh, points.positions, geometry,
-                            {settings.options.flip_edges, settings.limits.largest_fold_share,
-                             settings.finish, settings.facing, !options.as_published},
-                            run);
+  FinishSettings finish;
+  finish.flip_edges = settings.options.flip_edges;
+  finish.largest_fold_share = settings.limits.largest_fold_share;
+  finish.limits = settings.finish;
+  finish.facing = settings.facing;
+  finish.insert_points = !options.as_published;
+  finish.repair = finish.flip_edges && settings.options.remove_self_intersections;
+  disc.finish = finishMesh (disc.mesh, points.positions, geometry, finish, run);
   if (!disc.finish.is_repairable)
     disc.problem = {
         RunStatus::NOT_A_DISC,

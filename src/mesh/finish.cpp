@@ -4,17 +4,15 @@
 
 #include "mesh/flips.h"
 #include "mesh/insertion.h"
-#include "mesh/open_boundary.h"
-#include "mesh/remaking.h"
 
 namespace pcl::floater {
 namespace {
 // Fractions of the stage's time at the end of these steps. Measured on clean clouds.
 constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
+} // namespace
 
-// Inserts points, flips edges, repairs folds.
 MeshFinish
-repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
 {
   MeshFinish finish;
@@ -31,38 +29,33 @@ repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   const double edges = 1.5 * static_cast<double> (mesh.triangles.size ());
   finish.is_repairable = !settings.flip_edges ||
                          static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
-  if (settings.flip_edges && finish.folds > 0 && finish.is_repairable) {
-    // Flips have turned some triangles; normals may have the wrong sign now.
-    orientNormals (mesh, positions, normals, run);
-    moveVertices (mesh, geometry.neighbors, cost, positions, settings.limits.repair, run);
-    finish.folds = findFolds (mesh, positions, run).size ();
-  }
-  return finish;
-}
-
-} // namespace
-
-MeshFinish
-finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
-{
-  MeshFinish finish = repairMesh (mesh, positions, geometry, settings, run);
   if (settings.open_boundary) {
-    const std::size_t taken = openNotches (mesh, positions, settings.limits.notches, run);
-    if (finish.folds > 0 && taken + openBoundaryFolds (mesh, positions, run) > 0)
-      finish.folds = findFolds (mesh, positions, run).size ();
+    openNotches (mesh, positions, settings.limits.notches, run);
+    if (finish.folds > 0)
+      openBoundaryFolds (mesh, positions, run);
   }
-  if (settings.find_crossing) {
+  if (settings.repair && finish.is_repairable) {
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
-    if (settings.remake_sheets && finish.crossing->untested.empty ())
-      finish.remade_points =
-          remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
-                       *finish.crossing, settings.limits.remaking, run);
-    if (finish.remade_points > 0) {
-      if (flipFolds (mesh, positions, geometry.meshSpacing (), *finish.crossing, run) > 0)
-        finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
-      finish.folds = findFolds (mesh, positions, run).size ();
-    }
+    finish.pairs_found = finish.crossing->size ();
+    const auto repair = [&] (Repair kind) {
+      // The triangles have changed; normals may have the wrong sign now.
+      orientNormals (mesh, positions, normals, run);
+      const Repairs done = repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, positions,
+                                        kind, settings.limits.repair, run);
+      finish.repairs += done;
+      return done.hasChanged ();
+    };
+    const auto remake = [&] {
+      if (settings.remake_sheets && finish.crossing->untested.empty ())
+        finish.remade_points +=
+            remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
+                         *finish.crossing, settings.limits.remaking, run);
+    };
+    remake ();
+    // With fewer flaws around, zones become smaller, and fewer of them touch.
+    if (repair (Repair::BEFORE_REMAKING))
+      remake ();
+    repair (Repair::AT_THE_END);
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;

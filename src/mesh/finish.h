@@ -5,7 +5,7 @@
 
 #include "local/local_geometry.h"
 #include "mesh/facing.h"
-#include "mesh/fold_repair.h"
+#include "mesh/flaw_repair.h"
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
@@ -29,15 +29,15 @@ struct FinishLimits
 
 struct FinishSettings
 {
-  bool flip_edges = true; ///< flip edges and repair folds
+  bool flip_edges = true;
 
-  /// Share of all edges. If more are folded after the flips, the repair is skipped as hopeless.
+  /// Share of all edges. If more are folded after the flips, repair is hopeless.
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
   FacingHints facing = {};
   bool insert_points = true;  ///< insert points that have no triangle
-  bool find_crossing = false; ///< set MeshFinish::crossing
-  bool remake_sheets = false; ///< make disturbed zones anew in space; needs find_crossing
+  bool repair = false;        ///< repair flaws (see repairFlaws), and set MeshFinish::crossing
+  bool remake_sheets = false; ///< then make disturbed zones anew in space
   bool open_boundary = false; ///< remove triangles that fill notches of the boundary, or fold it
 };
 
@@ -45,15 +45,17 @@ struct FinishSettings
 struct MeshFinish
 {
   std::size_t flips = 0;
-  std::size_t folds = 0;         ///< remaining folded edges
-  bool is_repairable = true;     ///< false: more folds than FinishSettings::largest_fold_share
-  std::size_t remade_points = 0; ///< whose triangles were made anew in space
-  std::optional<CrossingPairs> crossing; ///< if asked for
+  std::size_t folds = 0;       ///< folded edges after the flips, before the repair
+  bool is_repairable = true;   ///< false: more folds than FinishSettings::largest_fold_share
+  std::size_t pairs_found = 0; ///< crossing pairs before any was removed
+  Repairs repairs;
+  std::size_t remade_points = 0;         ///< whose triangles were made anew in space
+  std::optional<CrossingPairs> crossing; ///< all pairs, if flaws were repaired
   MeshFacing facing;                     ///< which components were flipped, and why
 };
 
-/// Inserts missing points, flips edges, repairs the remaining folds, opens notches and folds of the
-/// boundary, and orients every component outwards. O(n log n) at worst.
+/// Inserts missing points, flips edges, opens notches and folds of the boundary, repairs folds and
+/// self-intersections, and orients every component outwards. O(n log n) at worst.
 /// \param positions of the points; the vertices lie on them
 /// \param geometry  normals of vertices get the side of the mesh before faceOutwards ()
 MeshFinish

@@ -5,7 +5,7 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "mesh/fold_repair.h"
+#include "mesh/flaw_repair.h"
 #include "mesh/two_sides.h"
 #include "mesh/vertex_stars.h"
 
@@ -92,6 +92,25 @@ public:
     return twice - triangles + (3 * triangles + open_edges) / 2;
   }
 
+  // Components beside the frame, if there is one.
+  std::ptrdiff_t islands () const
+  {
+    if (place_.frame.empty ())
+      return 0;
+    const std::size_t points = place_.positions.size ();
+    DisjointSets pieces (points);
+    for (const Triangle& t : mesh_.triangles) {
+      pieces.join (t[0], t[1]);
+      pieces.join (t[1], t[2]);
+    }
+    std::vector<std::uint8_t> is_island (points, 0);
+    for (const Triangle& t : mesh_.triangles)
+      is_island[pieces.find (t[0])] = 1;
+    for (const Triangle& t : place_.frame)
+      is_island[pieces.find (t[0])] = 0;
+    return std::count (is_island.begin (), is_island.end (), 1);
+  }
+
   // Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
   // without a triangle.
   std::size_t faults (const RunContext& run) const
@@ -163,7 +182,7 @@ public:
     for (Index& p : misfits)
       p = points[p];
     if (!misfits.empty () || !after.isManifold () ||
-        after.twiceHandles () > before.twiceHandles () ||
+        after.twiceHandles () > before.twiceHandles () || after.islands () > before.islands () ||
         static_cast<double> (after.faults (run_)) >
             limits_.faults_left * static_cast<double> (before.faults (run_)))
       return std::nullopt;

@@ -58,6 +58,21 @@ TriangleCost::agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_
 }
 
 bool
+TriangleCost::isLong (const Triangle& corners) const
+{
+  if (spacing_ == nullptr)
+    return false;
+  double sqr_longest = 0.0, spacings = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index p = corners[i], q = corners[(i + 1) % 3];
+    sqr_longest = std::max (sqr_longest, (positions_[q] - positions_[p]).squaredNorm ());
+    spacings += static_cast<double> ((*spacing_)[p]);
+  }
+  const double longest = limits_.longest_edge * spacings / 3.0;
+  return sqr_longest > longest * longest;
+}
+
+bool
 TriangleCost::isTurned (const Triangle& corners) const
 {
   const auto [a, b, c] = corners;

@@ -24,6 +24,7 @@ struct CostLimits
   double large_cost = 100.0;   ///< of a large triangle, per squared spacing above large_area
   double fold_cost = 1000.0;   ///< of an edge whose triangles are more than 90 degrees apart, per
                                ///< unit of negative cosine between their normals
+  double longest_edge = 3.0; ///< in spacings of the corners; with a longer one, a triangle is long
 };
 
 /// The cost of a triangle: the sum of the cotangents of its angles, which Delaunay flips minimize
@@ -59,6 +60,9 @@ public:
 
   /// True if a triangle is turned (see CostLimits).
   bool isTurned (const Triangle& corners) const;
+
+  /// True if a triangle is long (see CostLimits); false without spacings.
+  bool isLong (const Triangle& corners) const;
 
   /// Cost of an edge between two triangles: 0 up to an angle of 90 degrees between their normals,
   /// growing beyond; 0 if one of the normals is zero.

@@ -42,33 +42,6 @@ VertexMover::takeOut (Index v, double& change)
   return true;
 }
 
-double
-VertexMover::move (Index v, std::size_t tried)
-{
-  const std::size_t before = mesh_.mark ();
-  double change = 0.0;
-  if (!takeOut (v, change))
-    return 0.0;
-  const std::size_t without = mesh_.mark ();
-  double best = -IMPROVES;
-  Index best_place = NONE;
-  for (const auto& [added, t] : findPlaces (v, tried)) {
-    const double total = change + added + settleAt (v, t);
-    mesh_.undo (without);
-    if (total < best) {
-      best = total;
-      best_place = t;
-    }
-  }
-  if (best_place == NONE) {
-    mesh_.undo (before);
-    return 0.0;
-  }
-  settleAt (v, best_place);
-  markDirty (v);
-  return best;
-}
-
 std::vector<VertexMover::Place>
 VertexMover::placesFor (Index v, std::size_t most)
 {
@@ -87,7 +60,6 @@ VertexMover::moveTo (Index v, const Place& place)
   double change = 0.0;
   takeOut (v, change);
   change += place.added + settleAt (v, place.triangle);
-  markDirty (v);
   return change;
 }
 
@@ -112,16 +84,6 @@ VertexMover::rebuild (const std::vector<Index>& vertices, double& change)
     change += place.added + settleAt (out.back (), place.triangle);
   }
   return true;
-}
-
-// Appends the old and the new neighbours of a moved vertex.
-void
-VertexMover::markDirty (Index v)
-{
-  dirty_.insert (dirty_.end (), polygon_.begin (), polygon_.end ());
-  mesh_.fan (v, fan_);
-  for (Index u : fan_)
-    dirty_.insert (dirty_.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
 }
 
 // Splits triangle t at a vertex, using the two free slots, and flips edges around the vertex and

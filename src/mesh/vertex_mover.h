@@ -32,11 +32,6 @@ public:
   VertexMover& operator= (const VertexMover&) = delete;
   ~VertexMover () { mesh_.recordChanges (false); }
 
-  /// Moves a vertex to the triangle where the mesh costs least, if this lowers the cost.
-  /// \param tried number of triangles to try: those whose split costs least
-  /// \return change of the cost of the mesh: below 0, or 0 if the vertex stays
-  double move (Index v, std::size_t tried);
-
   /// A triangle for the insertion of a vertex.
   struct Place
   {
@@ -62,14 +57,9 @@ public:
 
   CachedCost& cost () { return cost_; }
 
-  /// Old and new neighbours of all moved vertices, undone moves included. Appended; the caller
-  /// clears the list.
-  std::vector<Index>& dirty () { return dirty_; }
-
 private:
   double costOf (const Index* first, const Index* last);
   bool takeOut (Index v, double& change);
-  void markDirty (Index v);
   double settleAt (Index v, Index t);
   bool isTriangle (const Triangle& corners);
   const std::vector<Place>& findPlaces (Index v, std::size_t most);
@@ -83,7 +73,7 @@ private:
   PolygonFilling filling_;
   std::vector<Triangle> filled_; // the filling of the hole that a vertex has left
   std::vector<Index> slots_;     // triangles of that hole; the last two are unused
-  std::vector<Index> fan_, polygon_, dirty_;
+  std::vector<Index> fan_, polygon_;
   std::vector<Place> places_;          // cheapest first
   std::vector<std::uint32_t> offered_; // per triangle: the last search that visited it
   std::uint32_t search_ = 0;

@@ -205,11 +205,11 @@ visitOptions (AnyOptions& options, Visitor&& visit)
       OptionRow{"denoise", SURFACE, "setDenoise", UsedFor::ALL,
                 "where noise is strong, connect points as they lie when projected on local planes"},
       options.denoise);
-  visit (OptionRow{"flips", SURFACE, "setFlipEdges", UsedFor::ALL,
-                   "flip edges in space and repair folds at the end"},
-         options.flip_edges);
+  visit (
+      OptionRow{"flips", SURFACE, "setFlipEdges", UsedFor::ALL, "flip edges in space at the end"},
+      options.flip_edges);
   visit (OptionRow{"uncross", SURFACE, "setRemoveSelfIntersections", UsedFor::ALL,
-                   "change the mesh where its triangles cross each other"},
+                   "change the mesh where triangles cross each other or are folded"},
          options.remove_self_intersections);
   visit (OptionRow{"open_crossings", SURFACE, "setOpenSelfIntersections", UsedFor::ALL,
                    "take triangles out until no two cross each other"},

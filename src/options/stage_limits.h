@@ -12,7 +12,6 @@
 #include "local/scatter.h"
 #include "local/stars.h"
 #include "mesh/check.h"
-#include "mesh/self_intersection_removal.h"
 #include "mesh/vertex_splits.h"
 #include "points/invalid_points.h"
 #include "points/net.h"
@@ -41,7 +40,6 @@ struct Limits
   DiscLimits disc;
   CheckLimits check;
   SplitLimits splits;
-  UncrossingLimits uncrossing;
 };
 
 struct Request
@@ -51,6 +49,13 @@ struct Request
   const RunContext& run;
   std::array<double, 3> sensor_origin{}; ///< as in Input
 };
+
+/// Whether folds and self-intersections are repaired.
+inline bool
+repairsFlaws (const Options& options)
+{
+  return options.flip_edges && options.remove_self_intersections;
+}
 
 /// Whether the disc method is asked for.
 inline bool

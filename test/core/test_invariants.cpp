@@ -83,8 +83,10 @@ invariants ()
     if (name.rfind ("disc", 0) == 0)
       options = samples::discOptions ();
     one.has_normals = name == "normals";
-    if (name == "holes" || name == "denoised") // hole fillings and noise are sampled anew
+    if (name == "denoised") // noise is sampled anew
       one.moved_share = 0.06;
+    if (name == "holes") // fillings are sampled anew, and repaired
+      one.moved_share = 0.12;
     if (name == "view") // the place that is found decides diagonals
       one.moved_share = 0.5;
     if (name == "holes")

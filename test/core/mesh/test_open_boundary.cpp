@@ -3,7 +3,7 @@
 // What is taken out at the boundary: folds beside it, and triangles that only fill its notches.
 #include "mesh/open_boundary.h"
 
-#include "mesh/fold_repair.h"
+#include "mesh/flaw_repair.h"
 #include "mesh/known_meshes.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 // Triangles that cross each other: all are found, and they are removed.
 #include "mesh/self_intersections.h"
 
+#include "mesh/flaw_repair.h"
 #include "mesh/known_meshes.h"
-#include "mesh/self_intersection_removal.h"
 #include "mesh/trimming.h"
 #include "mesh/vertex_stars.h"
 #include "report/findings.h"
@@ -125,12 +125,13 @@ struct Swapped : samples::TwoSheets
   std::vector<CrossingPair> crossing () const { return crossingOf ({positions, mesh.triangles}); }
 
   // Expects two discs of all points, and what is told of the pairs that are left.
-  Uncrossing remove (const UncrossingLimits& limits = {})
+  Repairs remove (const RepairLimits& limits = {})
   {
-    const Uncrossing done =
-        removeSelfIntersections (mesh, crossing (), neighbors,
-                                 TriangleCost (positions, normals, &spacing), positions, limits, 1);
-    EXPECT_EQ (crossing ().size (), done.pairs_left);
+    CrossingPairs pairs = findSelfIntersections (mesh.triangles, positions, 1);
+    const Repairs done =
+        repairFlaws (mesh, pairs, neighbors, TriangleCost (positions, normals, &spacing), positions,
+                     Repair::AT_THE_END, limits, 1);
+    EXPECT_EQ (crossing (), pairs);
     samples::expectConsistent (mesh);
     const samples::Topology topology = samples::topologyOf (mesh.triangles);
     EXPECT_EQ (topology.vertices, positions.size ());
@@ -144,8 +145,8 @@ TEST (SelfIntersections, AreRemovedByMovesAndNothingElseChanges)
   Swapped sheets ({30, 50});
   EXPECT_GE (sheets.crossing ().size (), 4U);
   const samples::Topology before = samples::topologyOf (sheets.mesh.triangles);
-  const Uncrossing done = sheets.remove ();
-  EXPECT_EQ (done.pairs_left, 0U);
+  const Repairs done = sheets.remove ();
+  EXPECT_TRUE (sheets.crossing ().empty ());
   EXPECT_GE (done.moves + done.flips, 2U);
   EXPECT_TRUE (samples::foldedEdges (sheets.mesh.triangles, sheets.positions).empty ());
   EXPECT_EQ (samples::topologyOf (sheets.mesh.triangles).loops, before.loops);
@@ -154,7 +155,7 @@ TEST (SelfIntersections, AreRemovedByMovesAndNothingElseChanges)
 // Where flips and moves of single points no longer help, patches are taken out and put back.
 TEST (SelfIntersections, AreRemovedByPatchesWhereMovesDoNotHelp)
 {
-  UncrossingLimits moves_only;
+  RepairLimits moves_only;
   moves_only.rebuilt_orders = 0;
   std::size_t left_by_moves = 0, left = 0, rebuilds = 0;
   RandomStream random (12);
@@ -163,10 +164,11 @@ TEST (SelfIntersections, AreRemovedByPatchesWhereMovesDoNotHelp)
     for (Index p = 0; p < SWAPPED_POINTS; ++p)
       if (random.uniform () < 0.2)
         swapped.push_back (p);
-    left_by_moves += Swapped (swapped).remove (moves_only).pairs_left;
-    const Uncrossing done = Swapped (swapped).remove ();
-    left += done.pairs_left;
-    rebuilds += done.rebuilds;
+    Swapped by_moves (swapped), sheets (swapped);
+    by_moves.remove (moves_only);
+    left_by_moves += by_moves.crossing ().size ();
+    rebuilds += sheets.remove ().rebuilds;
+    left += sheets.crossing ().size ();
   }
   EXPECT_GT (rebuilds, 0U);
   EXPECT_LT (left, left_by_moves);

@@ -260,10 +260,9 @@ struct Statistics
   std::size_t remade_points = 0; ///< surface: points at which several sheets are near, whose
                                  ///< triangles were made anew in space
   std::size_t self_intersections_found = 0;   ///< before any were removed
-  std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them
-  std::size_t self_intersection_moves = 0;    ///< points moved to other triangles to remove them
-  std::size_t self_intersection_rebuilds = 0; ///< point patches removed and reinserted to remove
-                                              ///< them
+  std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them, or folds
+  std::size_t self_intersection_moves = 0;    ///< points moved to other triangles
+  std::size_t self_intersection_rebuilds = 0; ///< patches of points removed and reinserted
 
   std::size_t unknowns = 0;            ///< interior points m, rows of the system
   std::size_t nnz_matrix = 0;          ///< nnz (A)

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/self_intersection_removal.h"
+#include "mesh/flaw_repair.h"
 
 #include "core/geometry.h"
 #include "core/order_statistics.h"
+#include "core/parallel.h"
 #include "mesh/crossing_table.h"
-#include "mesh/fold_repair.h"
 #include "mesh/vertex_mover.h"
 
 #include <algorithm>
@@ -18,14 +18,45 @@ namespace {
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
 constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // equivalent in time: an estimate
 
-class CrossingRepair
+// Whether a triangle is flawed, apart from those it crosses.
+// \param normal of a triangle, of any length
+template <typename Normal>
+bool
+isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair repair,
+          Normal&& normal)
+{
+  if (repair == Repair::BEFORE_REMAKING)
+    return isBad (mesh, cost, t, normal);
+  const Eigen::Vector3d own = normal (t);
+  return std::any_of (mesh.neighbors[t].begin (), mesh.neighbors[t].end (),
+                      [&] (Index u) { return u != NONE && isFold (own, normal (u)); });
+}
+
+// Of each triangle.
+std::vector<std::uint8_t>
+findFlawed (const TriangleMesh& mesh, const TriangleCost& cost,
+            const std::vector<Eigen::Vector3d>& positions, Repair repair, const RunContext& run)
+{
+  const auto normal = [&] (Index t) -> Eigen::Vector3d {
+    return areaVectorOf (mesh.triangles[t], positions);
+  };
+  std::vector<std::uint8_t> is_flawed (mesh.triangles.size ());
+  parallelRanges (run, is_flawed.size (), [&] (std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Index> (first); t < last; ++t)
+      is_flawed[t] = isFlawed (mesh, cost, t, repair, normal) ? 1 : 0;
+  });
+  return is_flawed;
+}
+
+class FlawRepair
 {
 public:
-  CrossingRepair (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
-                  const CsrLists& neighbors, const TriangleCost& cost,
-                  const std::vector<Eigen::Vector3d>& positions, const UncrossingLimits& limits,
-                  const RunContext& run)
-      : mesh_ (mesh), limits_ (limits), run_ (run), table_ (mesh, positions, pairs, run),
+  FlawRepair (TriangleMesh& mesh, std::vector<std::uint8_t> is_flawed,
+              const std::vector<CrossingPair>& pairs, const CsrLists& neighbors,
+              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
+              Repair repair, const RepairLimits& limits, const RunContext& run)
+      : mesh_ (mesh), repair_ (repair), limits_ (limits), run_ (run),
+        is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
         mover_ (mesh, neighbors, cost, limits.largest_fan, run),
         most_tests_ (
             std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),
@@ -33,10 +64,9 @@ public:
   {
   }
 
-  Uncrossing run ()
+  Repairs run ()
   {
-    for (std::size_t pass = 0; pass < limits_.passes && table_.pairs () > 0 && !isSpent ();
-         ++pass) {
+    for (std::size_t pass = 0; pass < limits_.passes && !isSpent (); ++pass) {
       const std::uint32_t before = step_;
       flipAll ();
       moveAll ();
@@ -45,7 +75,6 @@ public:
       if (step_ == before)
         break;
     }
-    done_.pairs_left = table_.pairs ();
     return done_;
   }
 
@@ -55,13 +84,25 @@ private:
     return table_.tests () + TESTS_PER_REBUILT_VERTEX * rebuilt_vertices_ >= most_tests_;
   }
 
+  bool isFlawedOrCrossing (Index t) const { return is_flawed_[t] != 0 || table_.isCrossing (t); }
+
+  // Triangles that cross others or are flawed, ascending.
+  std::vector<Index> flawedTriangles () const
+  {
+    std::vector<Index> triangles;
+    for (Index t = 0; t < is_flawed_.size (); ++t)
+      if (isFlawedOrCrossing (t))
+        triangles.push_back (t);
+    return triangles;
+  }
+
   // Flips single edges as long as this helps.
   void flipAll ()
   {
     bool has_changed = true;
     while (has_changed) {
       has_changed = false;
-      const std::vector<Index> triangles = table_.crossing ();
+      const std::vector<Index> triangles = flawedTriangles ();
       ProgressLoop progress (run_, triangles.size ());
       for (const Index t : triangles) {
         progress.next ();
@@ -87,7 +128,7 @@ private:
   {
     const MeshEdge m = mesh_.mate (e);
     if (m.triangle == NONE ||
-        (!table_.isCrossing (e.triangle) && !table_.isCrossing (m.triangle)) ||
+        (!isFlawedOrCrossing (e.triangle) && !isFlawedOrCrossing (m.triangle)) ||
         mesh_.hasEdge (mesh_.corner (e), mesh_.corner (m)))
       return false;
     const auto flip_it = [&] { mesh_.flip (e); };
@@ -97,12 +138,11 @@ private:
     return true;
   }
 
-  // Tries to move the vertices of crossing triangles, each once.
+  // Tries to move the vertices of these triangles, each once.
   void moveAll ()
   {
-    const std::vector<Index> triangles = table_.crossing ();
     std::vector<Index> vertices;
-    for (const Index t : triangles)
+    for (const Index t : flawedTriangles ())
       vertices.insert (vertices.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
     sortUnique (vertices);
     ProgressLoop progress (run_, vertices.size ());
@@ -119,18 +159,21 @@ private:
   }
 
   // Rebuilds patches around crossing triangles, those with the fewest crossings first: they are
-  // most likely to succeed.
+  // most likely to succeed. Then around flawed ones that cross none.
   void rebuildAll ()
   {
-    std::vector<Index> triangles = table_.crossing ();
-    std::stable_sort (triangles.begin (), triangles.end (), [this] (Index t, Index u) {
-      return table_.partnersOf (t)->size () < table_.partnersOf (u)->size ();
-    });
+    std::vector<Index> triangles = flawedTriangles ();
+    const auto order = [this] (Index t) {
+      const std::vector<Index>* const partners = table_.partnersOf (t);
+      return partners == nullptr ? std::numeric_limits<std::size_t>::max () : partners->size ();
+    };
+    std::stable_sort (triangles.begin (), triangles.end (),
+                      [&] (Index t, Index u) { return order (t) < order (u); });
     std::size_t tries = 0, successes = 0;
     ProgressLoop progress (run_, triangles.size ());
     for (const Index t : triangles) {
       progress.next ();
-      if (!table_.isCrossing (t) || rebuild_tried_in_[t] >= lastChangeAround (t))
+      if (!isFlawedOrCrossing (t) || rebuild_tried_in_[t] >= lastChangeAround (t))
         continue;
       if (isSpent () || tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
         return;
@@ -144,8 +187,15 @@ private:
   bool rebuildAround (Index t)
   {
     std::vector<Index> patch (mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
-    for (const Index u : *table_.partnersOf (t))
+    const auto add = [&] (Index u) {
       patch.insert (patch.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
+    };
+    if (const std::vector<Index>* const partners = table_.partnersOf (t))
+      std::for_each (partners->begin (), partners->end (), add);
+    else
+      for (const Index u : mesh_.neighbors[t])
+        if (u != NONE)
+          add (u);
     sortUnique (patch);
     for (std::size_t ring = 0; ring < limits_.rebuilt_rings; ++ring) {
       if (ring > 0)
@@ -183,13 +233,13 @@ private:
     return false;
   }
 
-  // Whether a triangle of a vertex crosses another one, and something there changed since its last
-  // try.
+  // Whether a triangle of a vertex is flawed or crosses another one, and something there changed since
+  // its last try.
   bool isWorthATry (Index v)
   {
     mesh_.fan (v, fan_);
     return std::any_of (fan_.begin (), fan_.end (),
-                        [this] (Index t) { return table_.isCrossing (t); }) &&
+                        [this] (Index t) { return isFlawedOrCrossing (t); }) &&
            std::any_of (fan_.begin (), fan_.end (),
                         [&] (Index t) { return lastChangeAround (t) > tried_in_[v]; });
   }
@@ -216,6 +266,8 @@ private:
     const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.places);
     for (const VertexMover::Place& place : places) {
       run_.poll ();
+      if (isSpent ())
+        break;
       if (const double gain = gainOf ([&] { mover_.moveTo (v, place); }); gain > best) {
         best = gain;
         best_place = &place;
@@ -223,7 +275,6 @@ private:
     }
     if (best_place != nullptr)
       keep ([&] { mover_.moveTo (v, *best_place); });
-    mover_.dirty ().clear ();
     return best_place != nullptr;
   }
 
@@ -242,13 +293,18 @@ private:
     const auto gain = [&] (long pairs) {
       return before.cost - after.cost - limits_.pair_cost * static_cast<double> (pairs);
     };
-    if (after.folds > before.folds || !(gain (-table_.pairsOf (changed_)) > VertexMover::IMPROVES))
+    const long folds = after.folds - before.folds;
+    const bool trades = repair_ == Repair::BEFORE_REMAKING;
+    const long pairs_there = table_.pairsOf (changed_);
+    if (after.long_triangles > before.long_triangles || folds > (trades ? pairs_there : 0) ||
+        !(gain (-pairs_there) > VertexMover::IMPROVES))
       return 0.0;
+    const long most_pairs = trades ? -folds : 0;
     change ();
-    const long pairs = table_.tryChange (changed_, 1);
+    const long pairs = table_.tryChange (changed_, std::max (most_pairs, 0L) + 1);
     mesh_.undo (mark);
     table_.reject (changed_);
-    return pairs <= 0 && gain (pairs) > VertexMover::IMPROVES ? gain (pairs) : 0.0;
+    return pairs <= most_pairs && gain (pairs) > VertexMover::IMPROVES ? gain (pairs) : 0.0;
   }
 
   template <typename Change>
@@ -259,13 +315,24 @@ private:
     table_.tryChange (changed_, EVERY_PAIR);
     table_.accept (changed_);
     ++step_;
-    for (const Index t : changed_)
+    const auto normal = [this] (Index t) -> Eigen::Vector3d {
+      return mover_.cost () (mesh_.triangles[t]).unit_normal;
+    };
+    const auto look = [&] (Index t) {
+      is_flawed_[t] = isFlawed (mesh_, mover_.cost ().plain (), t, repair_, normal) ? 1 : 0;
+    };
+    for (const Index t : changed_) {
       changed_in_[t] = step_;
+      look (t);
+      for (const Index u : mesh_.neighbors[t])
+        if (u != NONE)
+          look (u);
+    }
   }
 
   struct Flaws
   {
-    std::size_t folds = 0;
+    long folds = 0, long_triangles = 0;
     double cost = 0.0;
   };
 
@@ -277,6 +344,7 @@ private:
     for (const Index t : changed_) {
       const TriangleCost::Value own = cost (mesh_.triangles[t]);
       sum.cost += own.cost;
+      sum.long_triangles += cost.plain ().isLong (mesh_.triangles[t]) ? 1 : 0;
       for (const Index u : mesh_.neighbors[t])
         if (u != NONE && (t < u || !std::binary_search (changed_.begin (), changed_.end (), u))) {
           const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
@@ -288,31 +356,66 @@ private:
   }
 
   TriangleMesh& mesh_;
-  UncrossingLimits limits_;
+  Repair repair_;
+  RepairLimits limits_;
   RunContext run_;
+  std::vector<std::uint8_t> is_flawed_; // of each triangle, see isFlawed
   CrossingTable table_;
   VertexMover mover_;
   std::size_t most_tests_;
   std::uint32_t step_ = 1;                // number of kept changes, from 1 on
   std::vector<std::uint32_t> changed_in_; // of each triangle: the last step that changed it
   std::vector<std::uint32_t> tried_in_;   // of each vertex: the step after which it was tried
-  // Last tries at crossing triangles: by flips, and by rebuilding.
+  // Last tries at triangles: by flips, and by rebuilding.
   std::unordered_map<Index, std::uint32_t> flips_tried_in_, rebuild_tried_in_;
   std::size_t rebuilt_vertices_ = 0; // removed and reinserted in all trials
-  Uncrossing done_;
+  Repairs done_;
   std::vector<Index> fan_;
   std::vector<Index> changed_; // triangles, ascending
 };
 
 } // namespace
 
-Uncrossing
-removeSelfIntersections (TriangleMesh& mesh, const std::vector<CrossingPair>& pairs,
-                         const CsrLists& neighbors, const TriangleCost& cost,
-                         const std::vector<Eigen::Vector3d>& positions,
-                         const UncrossingLimits& limits, const RunContext& run)
+std::vector<MeshEdge>
+findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           const RunContext& run)
 {
-  return CrossingRepair (mesh, pairs, neighbors, cost, positions, limits, run).run ();
+  // Sides of each triangle at which it is folded against one of a higher index, as bits.
+  std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
+  parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Index> (first); t < last; ++t) {
+      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index u = mesh.neighbors[t][side];
+        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh.triangles[u], positions)))
+          sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
+      }
+    }
+  });
+  std::vector<MeshEdge> folds;
+  for (Index t = 0; t < sides.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (((sides[t] >> side) & 1U) != 0)
+        folds.push_back ({t, side});
+  return folds;
+}
+
+Repairs
+repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
+             const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions, Repair repair,
+             const RepairLimits& limits, const RunContext& run)
+{
+  if (!crossing.untested.empty ())
+    return {};
+  std::vector<std::uint8_t> is_flawed = findFlawed (mesh, cost, positions, repair, run);
+  if (crossing.empty () && std::count (is_flawed.begin (), is_flawed.end (), 1) == 0)
+    return {};
+  const Repairs done = FlawRepair (mesh, std::move (is_flawed), crossing, neighbors, cost,
+                                   positions, repair, limits, run)
+                           .run ();
+  if (done.hasChanged ())
+    crossing = findSelfIntersections (mesh.triangles, positions, run);
+  return done;
 }
 
 } // namespace pcl::floater
