@@ -26,8 +26,7 @@ public:
         order_ (orderByPoints (mesh.triangles, positions.size ())), place_ (order_.size ()),
         tree_ (
             order_.size (),
-            [this] (std::size_t i) { return boxOf (mesh_.triangles[order_[i]], positions_); }, run),
-        pairs_ (pairs.size ())
+            [this] (std::size_t i) { return boxOf (mesh_.triangles[order_[i]], positions_); }, run)
   {
     for (Index i = 0; i < order_.size (); ++i)
       place_[order_[i]] = i;
@@ -37,21 +36,21 @@ public:
     }
   }
 
-  std::size_t pairs () const { return pairs_; }
+  /// All pairs, sorted.
+  CrossingPairs pairs () const
+  {
+    CrossingPairs pairs;
+    for (const auto& [t, partners] : partners_)
+      for (const Index u : partners)
+        if (t < u)
+          pairs.push_back ({t, u});
+    std::sort (pairs.begin (), pairs.end ());
+    return pairs;
+  }
 
   /// Number of pairs with overlapping boxes that were tested so far, weighted by the time of a
   /// test.
   std::size_t tests () const { return tests_; }
-
-  /// Triangles that cross others, ascending.
-  std::vector<Index> crossing () const
-  {
-    std::vector<Index> triangles;
-    for (const auto& [t, partners] : partners_)
-      triangles.push_back (t);
-    std::sort (triangles.begin (), triangles.end ());
-    return triangles;
-  }
 
   bool isCrossing (Index t) const { return partners_.count (t) != 0; }
 
@@ -102,7 +101,6 @@ public:
         others->second.erase (std::find (others->second.begin (), others->second.end (), t));
         if (others->second.empty ())
           partners_.erase (others);
-        --pairs_;
       }
       partners_.erase (t);
     }
@@ -113,7 +111,6 @@ public:
         if (t < u || !contains (changed, u)) {
           partners_[t].push_back (u);
           partners_[u].push_back (t);
-          ++pairs_;
         }
     }
   }
@@ -161,7 +158,6 @@ private:
   std::vector<Index> order_, place_; // triangles in the tree, and the inverse
   BoxTree tree_;
   std::unordered_map<Index, std::vector<Index>> partners_; // of the triangles that cross others
-  std::size_t pairs_;
   std::size_t tests_ = 0;
 };
 

@@ -52,10 +52,12 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                          *finish.crossing, settings.limits.remaking, run);
     };
     remake ();
-    // With fewer flaws around, zones become smaller, and fewer of them touch.
-    if (repair (Repair::BEFORE_REMAKING))
-      remake ();
-    repair (Repair::AT_THE_END);
+    if (finish.folds + finish.pairs_found + finish.remade_points > 0) {
+      // With fewer flaws around, zones become smaller, and fewer of them touch.
+      if (repair (Repair::BEFORE_REMAKING))
+        remake ();
+      repair (Repair::AT_THE_END);
+    }
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;

@@ -78,6 +78,8 @@ public:
     return done_;
   }
 
+  CrossingPairs crossing () const { return table_.pairs (); }
+
 private:
   bool isSpent () const
   {
@@ -410,11 +412,11 @@ repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighb
   std::vector<std::uint8_t> is_flawed = findFlawed (mesh, cost, positions, repair, run);
   if (crossing.empty () && std::count (is_flawed.begin (), is_flawed.end (), 1) == 0)
     return {};
-  const Repairs done = FlawRepair (mesh, std::move (is_flawed), crossing, neighbors, cost,
-                                   positions, repair, limits, run)
-                           .run ();
+  FlawRepair search (mesh, std::move (is_flawed), crossing, neighbors, cost, positions, repair,
+                     limits, run);
+  const Repairs done = search.run ();
   if (done.hasChanged ())
-    crossing = findSelfIntersections (mesh.triangles, positions, run);
+    crossing = search.crossing ();
   return done;
 }
 
