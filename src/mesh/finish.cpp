@@ -45,17 +45,17 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       finish.repairs += done;
       return done.hasChanged ();
     };
-    const auto remake = [&] {
+    const auto remake = [&] (int widest) {
       if (settings.remake_sheets && finish.crossing->untested.empty ())
         finish.remade_points +=
             remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
-                         *finish.crossing, settings.limits.remaking, run);
+                         *finish.crossing, widest, settings.limits.remaking, run);
     };
-    remake ();
+    remake (3);
     if (finish.folds + finish.pairs_found + finish.remade_points > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
       if (repair (Repair::BEFORE_REMAKING))
-        remake ();
+        remake (2);
       repair (Repair::AT_THE_END);
     }
   }

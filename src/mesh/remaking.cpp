@@ -385,11 +385,11 @@ private:
 std::size_t
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
-             const RemakingLimits& limits, const RunContext& run)
+             int widest, const RemakingLimits& limits, const RunContext& run)
 {
   std::size_t remade = 0;
   std::vector<Index> all_misfits;
-  for (const int rings : {3, 2, 1, 1, 1}) {
+  for (int rings = widest; rings > 0; --rings) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
                                                      all_misfits, rings, limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());

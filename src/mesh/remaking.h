@@ -17,7 +17,7 @@ struct RemakingLimits
 };
 
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that
-/// came out wrong once more, narrower each time, but wider where the new triangles did not fit to
+/// came out wrong again, narrower by a ring each time, but wider where the new triangles did not fit to
 /// those around. A zone stays as it was if its new triangles are no manifold with those around,
 /// have a handle or a component of their own more, a lid on an opening, or not clearly fewer faults
 /// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other. Components may
@@ -26,10 +26,11 @@ struct RemakingLimits
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
+/// \param widest    rings around what is disturbed, at first
 /// \return number of points whose triangles were made anew
 std::size_t
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
-             const RemakingLimits& limits, const RunContext& run);
+             int widest, const RemakingLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

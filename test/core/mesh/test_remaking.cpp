@@ -69,7 +69,7 @@ struct Spheres
   {
     CrossingPairs crossing = findSelfIntersections (mesh.triangles, positions, 1);
     const std::size_t done =
-        remakeZones (mesh, positions, neighbors, spacing, crossing, {}, threads);
+        remakeZones (mesh, positions, neighbors, spacing, crossing, 3, {}, threads);
     EXPECT_EQ (crossing, findSelfIntersections (mesh.triangles, positions, 1));
     return done;
   }
