@@ -9,6 +9,7 @@
 #include "report/report_mesh.h"
 #include "report/verdict.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pcl::floater {
@@ -48,7 +49,9 @@ repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
               const Request& request, MeshFinish& finish)
 {
   finish.crossing = findSelfIntersections (mesh.triangles, all.positions, request.run);
-  if (!repairsFlaws (request.options))
+  finish.pairs_found = std::max (finish.pairs_found, finish.crossing->size ());
+  if (!repairsFlaws (request.options) ||
+      (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
     return;
   geometry.neighbors =
       findNeighbors (all, neighborSettings (request.options, nullptr), request.run);
@@ -69,6 +72,8 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
     return {RunStatus::DEGENERATE,
             "no three points make a triangle of a surface: they lie along lines or curves, or each "
             "on its own; a surface needs points side by side"};
+  report.statistics.self_intersections_found =
+      std::max (finish.pairs_found, found.crossing.size ());
   Trimming trimming;
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =
@@ -92,7 +97,6 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
   report.statistics.remade_points = finish.remade_points;
-  report.statistics.self_intersections_found = finish.pairs_found;
   report.statistics.self_intersection_flips = finish.repairs.flips;
   report.statistics.self_intersection_moves = finish.repairs.moves;
   report.statistics.self_intersection_rebuilds = finish.repairs.rebuilds;

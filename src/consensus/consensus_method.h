@@ -70,10 +70,9 @@ struct Surface
                                           ///< findOrientationSeam); otherwise empty
 };
 
-/// Makes the consensus mesh, fills holes, inserts missing points, flips edges and
-/// repairs flaws.
-/// Stages CONSENSUS, HOLES and FLIPS. Triangles and holes are chosen by the working positions; the
-/// mesh is finished by the input positions. O(n log n).
+/// Makes the consensus mesh, fills holes, inserts missing points, flips edges and repairs
+/// flaws. Stages CONSENSUS, HOLES and FLIPS. Triangles and holes are chosen by the working
+/// positions; the mesh is finished by the input positions. O(n log n).
 /// \param geometry in: of the points; out: without stars, but with their normals, oriented like the
 ///     mesh
 Surface

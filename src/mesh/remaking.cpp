@@ -72,14 +72,10 @@ public:
   long twiceHandles () const
   {
     const std::size_t points = place_.positions.size ();
-    DisjointSets pieces (points), loops (points);
+    DisjointSets pieces = components (), loops (points);
     std::vector<std::uint8_t> is_open (points, 0);
     const auto triangles = static_cast<long> (mesh_.triangles.size ());
     long open_edges = 0, twice = 0;
-    for (const Triangle& t : mesh_.triangles) {
-      pieces.join (t[0], t[1]);
-      pieces.join (t[1], t[2]);
-    }
     for (const MeshEdge e : boundaryEdges (mesh_)) {
       loops.join (mesh_.from (e), mesh_.to (e));
       is_open[mesh_.from (e)] = is_open[mesh_.to (e)] = 1;
@@ -92,18 +88,13 @@ public:
     return twice - triangles + (3 * triangles + open_edges) / 2;
   }
 
-  // Components beside the frame, if there is one.
+  // Components that have no triangle of the frame, if there is a frame.
   std::ptrdiff_t islands () const
   {
     if (place_.frame.empty ())
       return 0;
-    const std::size_t points = place_.positions.size ();
-    DisjointSets pieces (points);
-    for (const Triangle& t : mesh_.triangles) {
-      pieces.join (t[0], t[1]);
-      pieces.join (t[1], t[2]);
-    }
-    std::vector<std::uint8_t> is_island (points, 0);
+    DisjointSets pieces = components ();
+    std::vector<std::uint8_t> is_island (place_.positions.size (), 0);
     for (const Triangle& t : mesh_.triangles)
       is_island[pieces.find (t[0])] = 1;
     for (const Triangle& t : place_.frame)
@@ -128,6 +119,17 @@ public:
   }
 
 private:
+  // Connected points; those of no triangle each by themselves.
+  DisjointSets components () const
+  {
+    DisjointSets pieces (place_.positions.size ());
+    for (const Triangle& t : mesh_.triangles) {
+      pieces.join (t[0], t[1]);
+      pieces.join (t[1], t[2]);
+    }
+    return pieces;
+  }
+
   bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
 
   const Place& place_;

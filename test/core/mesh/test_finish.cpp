@@ -155,6 +155,25 @@ TEST (Finish, PutsPointsInOrderThatThePlaneHasMixedUp)
   }
 }
 
+TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)
+{
+  SurfaceSpec spec;
+  spec.kind = SurfaceKind::FOLDED_SHEET;
+  spec.points = 3000;
+  spec.gap = 1.5;
+  spec.noise = 0.25;
+  const Input input = samples::asInput (generateSurface (spec));
+  Options options;
+  const Report repaired = reconstruct (input, options).report;
+  options.remove_self_intersections = false;
+  const Report left = reconstruct (input, options).report;
+  EXPECT_GT (left.check.self_intersections, 0U);
+  EXPECT_EQ (left.statistics.self_intersections_found, left.check.self_intersections);
+  EXPECT_EQ (repaired.statistics.self_intersections_found, left.check.self_intersections);
+  EXPECT_LT (repaired.check.self_intersections, left.check.self_intersections);
+  EXPECT_EQ (left.statistics.self_intersection_flips + left.statistics.remade_points, 0U);
+}
+
 TEST (Finish, ATorusLaidOutAsADiscIsRefused)
 {
   constexpr Index AROUND = 60;
