@@ -60,7 +60,7 @@ repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
   const TriangleCost cost (all.positions, geometry.stars.normals, &geometry.meshSpacing (),
                            limits.cost);
   finish.repairs += repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, all.positions,
-                                 Repair::AT_THE_END, limits.repair, request.run);
+                                 Repair::AT_THE_END, {}, limits.repair, request.run);
 }
 
 Problem

@@ -40,27 +40,30 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   if (settings.repair && finish.is_repairable) {
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     finish.pairs_found = finish.crossing->size ();
+    RemadeZones remade;
     const auto repair = [&] (Repair kind) {
       // The triangles have changed; normals may have the wrong sign now.
       orientNormals (mesh, positions, normals, run);
-      const Repairs done = repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, positions,
-                                        kind, settings.limits.repair, run);
+      const Repairs done =
+          repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, positions, kind,
+                       findRidges (mesh, positions, *finish.crossing, remade.is_remade, run),
+                       settings.limits.repair, run);
       finish.repairs += done;
       return done.hasChanged ();
     };
     const auto remake = [&] (int widest) {
-      if (settings.remake_sheets && finish.crossing->untested.empty ())
-        finish.remade_points +=
-            remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (),
-                         *finish.crossing, widest, settings.limits.remaking, run);
+      if (settings.remake_sheets && finish.crossing->untested.empty () && !remade.is_noise)
+        remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
+                     widest, remade, settings.limits.remaking, run);
     };
     remake (WIDEST);
-    if (finish.folds + finish.pairs_found + finish.remade_points > 0) {
+    if (finish.folds + finish.pairs_found + remade.points () > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
       if (repair (Repair::BEFORE_REMAKING))
         remake (WIDEST_AGAIN);
       repair (Repair::AT_THE_END);
     }
+    finish.remade_points = remade.points ();
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;

@@ -23,19 +23,27 @@ constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // equivalent in time: an 
 template <typename Normal>
 bool
 isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair repair,
-          Normal&& normal)
+          const Ridges& ridges, Normal&& normal)
 {
-  if (repair == Repair::BEFORE_REMAKING)
-    return isBad (mesh, cost, t, normal);
+  const bool bad = repair == Repair::BEFORE_REMAKING;
+  if (bad && cost.isTurned (mesh.triangles[t]))
+    return true;
   const Eigen::Vector3d own = normal (t);
-  return std::any_of (mesh.neighbors[t].begin (), mesh.neighbors[t].end (),
-                      [&] (Index u) { return u != NONE && isFold (own, normal (u)); });
+  for (std::uint8_t side = 0; side < 3; ++side)
+    if (const Index u = mesh.neighbors[t][side]; u != NONE) {
+      const Eigen::Vector3d other = normal (u);
+      if ((bad ? own.dot (other) < 0.0 : isFold (own, other)) &&
+          !ridges.has (mesh.from ({t, side}), mesh.to ({t, side})))
+        return true;
+    }
+  return false;
 }
 
 // Of each triangle.
 std::vector<std::uint8_t>
 findFlawed (const TriangleMesh& mesh, const TriangleCost& cost,
-            const std::vector<Eigen::Vector3d>& positions, Repair repair, const RunContext& run)
+            const std::vector<Eigen::Vector3d>& positions, Repair repair, const Ridges& ridges,
+            const RunContext& run)
 {
   const auto normal = [&] (Index t) -> Eigen::Vector3d {
     return areaVectorOf (mesh.triangles[t], positions);
@@ -43,7 +51,7 @@ findFlawed (const TriangleMesh& mesh, const TriangleCost& cost,
   std::vector<std::uint8_t> is_flawed (mesh.triangles.size ());
   parallelRanges (run, is_flawed.size (), [&] (std::size_t first, std::size_t last) {
     for (auto t = static_cast<Index> (first); t < last; ++t)
-      is_flawed[t] = isFlawed (mesh, cost, t, repair, normal) ? 1 : 0;
+      is_flawed[t] = isFlawed (mesh, cost, t, repair, ridges, normal) ? 1 : 0;
   });
   return is_flawed;
 }
@@ -54,8 +62,9 @@ public:
   FlawRepair (TriangleMesh& mesh, std::vector<std::uint8_t> is_flawed,
               const std::vector<CrossingPair>& pairs, const CsrLists& neighbors,
               const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
-              Repair repair, const RepairLimits& limits, const RunContext& run)
-      : mesh_ (mesh), repair_ (repair), limits_ (limits), run_ (run),
+              Repair repair, const Ridges& ridges, const RepairLimits& limits,
+              const RunContext& run)
+      : mesh_ (mesh), repair_ (repair), ridges_ (ridges), limits_ (limits), run_ (run),
         is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
         mover_ (mesh, neighbors, cost, limits.largest_fan, run),
         most_tests_ (
@@ -321,7 +330,8 @@ private:
       return mover_.cost () (mesh_.triangles[t]).unit_normal;
     };
     const auto look = [&] (Index t) {
-      is_flawed_[t] = isFlawed (mesh_, mover_.cost ().plain (), t, repair_, normal) ? 1 : 0;
+      is_flawed_[t] =
+          isFlawed (mesh_, mover_.cost ().plain (), t, repair_, ridges_, normal) ? 1 : 0;
     };
     for (const Index t : changed_) {
       changed_in_[t] = step_;
@@ -347,18 +357,24 @@ private:
       const TriangleCost::Value own = cost (mesh_.triangles[t]);
       sum.cost += own.cost;
       sum.long_triangles += cost.plain ().isLong (mesh_.triangles[t]) ? 1 : 0;
-      for (const Index u : mesh_.neighbors[t])
-        if (u != NONE && (t < u || !std::binary_search (changed_.begin (), changed_.end (), u))) {
-          const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
-          sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
-          sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
-        }
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index u = mesh_.neighbors[t][side];
+        if (u == NONE || (t > u && std::binary_search (changed_.begin (), changed_.end (), u)))
+          continue;
+        const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
+        if (own.unit_normal.dot (normal) >= 0.0 ||
+            ridges_.has (mesh_.from ({t, side}), mesh_.to ({t, side})))
+          continue;
+        sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
+        sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
+      }
     }
     return sum;
   }
 
   TriangleMesh& mesh_;
   Repair repair_;
+  const Ridges& ridges_;
   RepairLimits limits_;
   RunContext run_;
   std::vector<std::uint8_t> is_flawed_; // of each triangle, see isFlawed
@@ -405,15 +421,15 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions, Repair repair,
-             const RepairLimits& limits, const RunContext& run)
+             const Ridges& ridges, const RepairLimits& limits, const RunContext& run)
 {
   if (!crossing.untested.empty ())
     return {};
-  std::vector<std::uint8_t> is_flawed = findFlawed (mesh, cost, positions, repair, run);
+  std::vector<std::uint8_t> is_flawed = findFlawed (mesh, cost, positions, repair, ridges, run);
   if (crossing.empty () && std::count (is_flawed.begin (), is_flawed.end (), 1) == 0)
     return {};
   FlawRepair search (mesh, std::move (is_flawed), crossing, neighbors, cost, positions, repair,
-                     limits, run);
+                     ridges, limits, run);
   const Repairs done = search.run ();
   if (done.hasChanged ())
     crossing = search.crossing ();

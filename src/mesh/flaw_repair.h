@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/order_statistics.h"
+#include "mesh/ridges.h"
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
@@ -63,7 +64,8 @@ struct RepairLimits
 /// What counts as a flaw besides triangles that cross, and what a change must not make worse.
 enum class Repair
 {
-  BEFORE_REMAKING, ///< bad triangles (see isBad); the sum of folded edges and crossing pairs
+  BEFORE_REMAKING, ///< turned triangles (see CostLimits), and those more than 90 degrees from a
+                   ///< neighbouring one; the sum of folded edges and crossing pairs
   AT_THE_END       ///< triangles at folded edges (isFold); the folded edges, and the crossing pairs
 };
 
@@ -94,9 +96,10 @@ struct Repairs
 /// within the limits; does nothing if some pairs are untested. One thread.
 /// \param[in,out] crossing all pairs of the mesh (see findSelfIntersections)
 /// \param neighbors nearest neighbours of each point, candidates for a vertex's new neighbours
+/// \param ridges    edges that count neither as folded nor as bad
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions, Repair repair,
-             const RepairLimits& limits, const RunContext& run);
+             const Ridges& ridges, const RepairLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

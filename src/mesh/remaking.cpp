@@ -384,12 +384,11 @@ private:
 
 } // namespace
 
-std::size_t
+void
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
-             int widest, const RemakingLimits& limits, const RunContext& run)
+             int widest, RemadeZones& remade, const RemakingLimits& limits, const RunContext& run)
 {
-  std::size_t remade = 0;
   std::vector<Index> all_misfits;
   for (int rings = widest; rings > 0; --rings) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
@@ -398,7 +397,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     std::vector<std::uint8_t> is_noise (made.size (), 0);
     std::vector<std::vector<Index>> misfits (made.size ());
     if (made.empty ())
-      return remade;
+      return;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
@@ -411,18 +410,22 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     std::size_t noisy_points = 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone)
       noisy_points += is_noise[zone] != 0 ? zones.points.row (zone).size () : 0;
-    if (4 * noisy_points > positions.size ())
-      return remade; // the cloud is noise
+    if (4 * noisy_points > positions.size ()) {
+      remade.is_noise = true;
+      return;
+    }
     if (std::count (made.begin (), made.end (), std::nullopt) ==
             static_cast<std::ptrdiff_t> (made.size ()) ||
         !spliced.connect (positions.size (), run))
       continue;
+    remade.is_remade.resize (positions.size (), 0);
     for (std::size_t zone = 0; zone < made.size (); ++zone)
-      remade += made[zone] ? zones.points.row (zone).size () : 0;
+      if (made[zone])
+        for (const Index p : zones.points.row (zone))
+          remade.is_remade[p] = 1;
     mesh = std::move (spliced);
     crossing = findSelfIntersections (mesh.triangles, positions, run);
   }
-  return remade;
 }
 
 } // namespace pcl::floater

@@ -16,6 +16,18 @@ struct RemakingLimits
                             ///< fold has two open edges for each folded one that closes it
 };
 
+/// What remakeZones () has done.
+struct RemadeZones
+{
+  std::vector<std::uint8_t> is_remade; ///< of each point: its triangles were made anew; or empty
+  bool is_noise = false;               ///< the cloud is noise, so that no zone can be made anew
+
+  std::size_t points () const
+  {
+    return static_cast<std::size_t> (std::count (is_remade.begin (), is_remade.end (), 1));
+  }
+};
+
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that
 /// came out wrong again, narrower by a ring each time, but wider where the new triangles did not
 /// fit to those around. A zone stays as it was if its new triangles are no manifold with those around,
@@ -27,10 +39,10 @@ struct RemakingLimits
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
 /// \param widest    rings around what is disturbed, at first
-/// \return number of points whose triangles were made anew
-std::size_t
+/// \param remade    out: adds what was done to what was done before
+void
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
-             int widest, const RemakingLimits& limits, const RunContext& run);
+             int widest, RemadeZones& remade, const RemakingLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -149,20 +149,4 @@ private:
   std::size_t asked_ = 0;
 };
 
-/// Whether a triangle is bad: turned (see CostLimits), or more than 90 degrees from a neighbouring
-/// one.
-/// \param normal_of normal of a triangle, of any length
-template <typename NormalOf>
-bool
-isBad (const TriangleMesh& mesh, const TriangleCost& cost, Index t, NormalOf&& normal_of)
-{
-  if (cost.isTurned (mesh.triangles[t]))
-    return true;
-  const Eigen::Vector3d normal = normal_of (t);
-  for (const Index u : mesh.neighbors[t])
-    if (u != NONE && normal.dot (normal_of (u)) < 0.0)
-      return true;
-  return false;
-}
-
 } // namespace pcl::floater

@@ -87,8 +87,8 @@ struct Sheets : samples::TwoSheets
   Repairs repair (const RepairLimits& limits = {})
   {
     CrossingPairs pairs = crossing ();
-    const Repairs done =
-        repairFlaws (mesh, pairs, neighbors, cost, positions, Repair::BEFORE_REMAKING, limits, 1);
+    const Repairs done = repairFlaws (mesh, pairs, neighbors, cost, positions,
+                                      Repair::BEFORE_REMAKING, {}, limits, 1);
     EXPECT_EQ (pairs, crossing ());
     expectConsistent (mesh);
     EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), 0);
@@ -215,7 +215,7 @@ TEST (FlawRepair, AFoldIsFlippedUnlessThatMakesTrianglesCross)
     ASSERT_EQ (findFolds (mesh, positions, 1).size (), 1U);
     const std::vector<Eigen::Vector3f> normals (7, Eigen::Vector3f::Zero ());
     const Repairs done = repairFlaws (mesh, crossing, neighbors, TriangleCost (positions, normals),
-                                      positions, Repair::AT_THE_END, {}, 1);
+                                      positions, Repair::AT_THE_END, {}, {}, 1);
     EXPECT_EQ (done.flips, is_in_the_way ? 0U : 1U);
     EXPECT_TRUE (crossing.empty ());
     EXPECT_EQ (findFolds (mesh, positions, 1).size (), is_in_the_way ? 1U : 0U);

@@ -68,10 +68,10 @@ struct Spheres
   std::size_t remake (int threads = 1)
   {
     CrossingPairs crossing = findSelfIntersections (mesh.triangles, positions, 1);
-    const std::size_t done =
-        remakeZones (mesh, positions, neighbors, spacing, crossing, 3, {}, threads);
+    RemadeZones remade;
+    remakeZones (mesh, positions, neighbors, spacing, crossing, 3, remade, {}, threads);
     EXPECT_EQ (crossing, findSelfIntersections (mesh.triangles, positions, 1));
-    return done;
+    return remade.points ();
   }
 };
 

@@ -130,7 +130,7 @@ struct Swapped : samples::TwoSheets
     CrossingPairs pairs = findSelfIntersections (mesh.triangles, positions, 1);
     const Repairs done =
         repairFlaws (mesh, pairs, neighbors, TriangleCost (positions, normals, &spacing), positions,
-                     Repair::AT_THE_END, limits, 1);
+                     Repair::AT_THE_END, {}, limits, 1);
     EXPECT_EQ (crossing (), pairs);
     samples::expectConsistent (mesh);
     const samples::Topology topology = samples::topologyOf (mesh.triangles);
