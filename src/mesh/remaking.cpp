@@ -382,6 +382,16 @@ private:
   std::vector<std::uint8_t> is_turned_; // of each triangle, and then of each zone
 };
 
+// True if all points of a zone were in a zone of about this size that stayed as it was. Large zones
+// hardly become smaller with fewer rings, and would come out wrong again.
+bool
+hasFailed (Row zone, const std::vector<std::size_t>& failed)
+{
+  return std::all_of (zone.begin (), zone.end (), [&] (Index p) {
+    return 10 * failed[p] >= 9 * zone.size () && 10 * failed[p] <= 11 * zone.size ();
+  });
+}
+
 } // namespace
 
 void
@@ -400,8 +410,10 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       return;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
+    remade.failed.resize (positions.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone], misfits[zone]);
+      if (!hasFailed (zones.points.row (zone), remade.failed))
+        made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone], misfits[zone]);
     });
     for (const std::vector<Index>& points : misfits)
       all_misfits.insert (all_misfits.end (), points.begin (), points.end ());
@@ -410,6 +422,9 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     std::size_t noisy_points = 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone)
       noisy_points += is_noise[zone] != 0 ? zones.points.row (zone).size () : 0;
+    for (std::size_t zone = 0; zone < made.size (); ++zone)
+      for (const Index p : zones.points.row (zone))
+        remade.failed[p] = made[zone] ? 0 : zones.points.row (zone).size ();
     if (4 * noisy_points > positions.size ()) {
       remade.is_noise = true;
       return;

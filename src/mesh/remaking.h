@@ -20,6 +20,8 @@ struct RemakingLimits
 struct RemadeZones
 {
   std::vector<std::uint8_t> is_remade; ///< of each point: its triangles were made anew; or empty
+  std::vector<std::size_t> failed;     ///< of each point: size of the last zone with it that stayed
+                                       ///< as it was; 0: none; or empty
   bool is_noise = false;               ///< the cloud is noise, so that no zone can be made anew
 
   std::size_t points () const
@@ -32,7 +34,7 @@ struct RemadeZones
 /// came out wrong again, narrower by a ring each time, but wider where the new triangles did not
 /// fit to those around. A zone stays as it was if its new triangles are no manifold with those around,
 /// have a handle or a component of their own more, a lid on an opening, or not clearly fewer faults
-/// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other. Components may
+/// (see PieceInPlace), if it was tried with about the same points before, or if the sides of pieces of the mesh contradict each other. Components may
 /// come out with either side as the front. O(n), plus some 60 microseconds for a point of a zone;
 /// zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
