@@ -43,7 +43,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     RemadeZones remade;
     const auto repair = [&] (Repair kind) {
       // The triangles have changed; normals may have the wrong sign now.
-      orientNormals (mesh, positions, normals, run);
+      orientNormals (mesh, positions, normals, run, remade.is_remade);
       const Repairs done =
           repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, positions, kind,
                        findRidges (mesh, positions, *finish.crossing, remade.is_remade, run),

@@ -307,8 +307,8 @@ private:
     const long folds = after.folds - before.folds;
     const bool trades = repair_ == Repair::BEFORE_REMAKING;
     const long pairs_there = table_.pairsOf (changed_);
-    if (after.long_triangles > before.long_triangles || folds > (trades ? pairs_there : 0) ||
-        !(gain (-pairs_there) > VertexMover::IMPROVES))
+    if (after.long_triangles > before.long_triangles || after.ridges < before.ridges ||
+        folds > (trades ? pairs_there : 0) || !(gain (-pairs_there) > VertexMover::IMPROVES))
       return 0.0;
     const long most_pairs = trades ? -folds : 0;
     change ();
@@ -344,7 +344,7 @@ private:
 
   struct Flaws
   {
-    long folds = 0, long_triangles = 0;
+    long folds = 0, long_triangles = 0, ridges = 0;
     double cost = 0.0;
   };
 
@@ -361,10 +361,11 @@ private:
         const Index u = mesh_.neighbors[t][side];
         if (u == NONE || (t > u && std::binary_search (changed_.begin (), changed_.end (), u)))
           continue;
-        const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
-        if (own.unit_normal.dot (normal) >= 0.0 ||
-            ridges_.has (mesh_.from ({t, side}), mesh_.to ({t, side})))
+        if (ridges_.has (mesh_.from ({t, side}), mesh_.to ({t, side}))) {
+          ++sum.ridges;
           continue;
+        }
+        const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
         sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
         sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
       }

@@ -18,7 +18,8 @@ constexpr std::size_t TRIANGLES_PER_TASK = 8192; // worth a cache of costs
 
 void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+               std::vector<Eigen::Vector3f>& normals, const RunContext& run,
+               const std::vector<std::uint8_t>& is_remade)
 {
   const TriangleRanges ranges (mesh.triangles, normals.size (), run);
   parallelTasks (run, ranges.count (), [&] (std::size_t r) {
@@ -32,7 +33,9 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
           area[p - first] += area_vector;
     });
     for (std::size_t p = 0; p < points; ++p)
-      if (normals[first + p].dot (area[p]) < 0.0F)
+      if (!is_remade.empty () && is_remade[first + p] != 0)
+        normals[first + p] = area[p].normalized (); // zero stays zero
+      else if (normals[first + p].dot (area[p]) < 0.0F)
         normals[first + p] = -normals[first + p];
   });
 }

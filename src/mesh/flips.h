@@ -11,10 +11,13 @@
 
 namespace pcl::floater {
 /// Orients every normal towards the front of most of the area around its point. Normals of points
-/// without triangles stay. O(n), on all threads.
+/// without triangles stay. Points whose triangles were made in space get the normal of these: there,
+/// a tangent plane may belong to two sheets. O(n), on all threads.
+/// \param is_remade of each point: its triangles were made in space; or empty
 void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+               std::vector<Eigen::Vector3f>& normals, const RunContext& run,
+               const std::vector<std::uint8_t>& is_remade = {});
 
 /// Unit normal of the triangle across an edge; zero at the boundary, so that edges there cost 0.
 inline Eigen::Vector3d

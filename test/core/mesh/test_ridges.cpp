@@ -3,6 +3,7 @@
 #include "mesh/ridges.h"
 
 #include "mesh/flaw_repair.h"
+#include "mesh/flips.h"
 #include "mesh/known_meshes.h"
 #include "points/neighbors.h"
 
@@ -24,8 +25,8 @@ tube (const std::vector<Eigen::Vector2d>& section)
   for (Index x = 0; x < LENGTH; ++x)
     for (Index i = 0; i < corners; ++i) {
       const Index a = x * corners + i, b = x * corners + (i + 1) % corners;
-      mesh.triangles.push_back ({a, a + corners, b});
-      mesh.triangles.push_back ({b, a + corners, b + corners});
+      mesh.triangles.push_back ({a, b, a + corners});
+      mesh.triangles.push_back ({b, b + corners, a + corners});
     }
   return mesh;
 }
@@ -35,6 +36,20 @@ samples::Mesh
 arrow ()
 {
   return tube ({{4.0, 0.0}, {-1.0, 1.0}, {3.0, 0.0}, {-1.0, -1.0}});
+}
+
+// Ridges at points 0 and 4.
+samples::Mesh
+blade ()
+{
+  return tube ({{2.0, 0.0},
+                {1.0, 0.15},
+                {0.0, 0.3},
+                {-1.0, 0.15},
+                {-2.0, 0.0},
+                {-1.0, -0.15},
+                {0.0, -0.3},
+                {1.0, -0.15}});
 }
 
 Ridges
@@ -71,26 +86,44 @@ TEST (Ridges, AreOnlyWhereTheMeshWasMadeInSpaceAndNothingCrosses)
   EXPECT_TRUE (without.has (8, 12));
 }
 
+// The normals are those of a tangent plane of both sides of a blade: they tell nothing.
 TEST (Ridges, AreKeptByTheRepair)
 {
-  const samples::Mesh blade = tube ({{2.0, 0.0}, {0.0, 0.3}, {-2.0, 0.0}, {0.0, -0.3}});
-  const Ridges ridges = ridgesOf (blade);
+  const samples::Mesh sharp = blade ();
+  const Ridges ridges = ridgesOf (sharp);
   EXPECT_EQ (ridges.ends.size (), 2 * LENGTH);
   const CsrLists neighbors =
-      findNearestNeighbors (blade.positions, Rows::all (blade.positions.size ()), 20, 1);
-  std::vector<Eigen::Vector3f> normals;
-  for (const Eigen::Vector3d& p : blade.positions)
-    normals.push_back (
-        Eigen::Vector3d (0.0, p.y () / 4.0, 10.0 * p.z ()).cast<float> ().normalized ());
-  const TriangleCost cost (blade.positions, normals);
-  for (const Repair kind : {Repair::BEFORE_REMAKING, Repair::AT_THE_END})
-    for (const bool known : {true, false}) {
-      TriangleMesh mesh = samples::connected (blade);
-      CrossingPairs crossing;
-      const Repairs done = repairFlaws (mesh, crossing, neighbors, cost, blade.positions, kind,
-                                        known ? ridges : Ridges{}, {}, 1);
-      EXPECT_EQ (done.hasChanged (), !known);
-    }
+      findNearestNeighbors (sharp.positions, Rows::all (sharp.positions.size ()), 20, 1);
+  const std::vector<Eigen::Vector3f> normals (sharp.positions.size (), Eigen::Vector3f::UnitZ ());
+  const TriangleCost cost (sharp.positions, normals);
+  for (const bool are_known : {true, false}) {
+    TriangleMesh mesh = samples::connected (sharp);
+    CrossingPairs crossing;
+    const Repairs done =
+        repairFlaws (mesh, crossing, neighbors, cost, sharp.positions, Repair::BEFORE_REMAKING,
+                     are_known ? ridges : Ridges{}, {}, 1);
+    EXPECT_TRUE (done.hasChanged ());
+    EXPECT_EQ (std::all_of (ridges.ends.begin (), ridges.ends.end (),
+                            [&] (const auto& ends) { return mesh.hasEdge (ends[0], ends[1]); }),
+               are_known);
+  }
+}
+
+TEST (Ridges, PointsThereGetTheNormalsOfTheMesh)
+{
+  const samples::Mesh sharp = blade ();
+  const std::size_t points = sharp.positions.size ();
+  std::vector<std::uint8_t> is_remade (points, 1);
+  is_remade[3] = 0;
+  std::vector<Eigen::Vector3f> normals (points, -Eigen::Vector3f::UnitZ ());
+  orientNormals (samples::connected (sharp), sharp.positions, normals, 1, is_remade);
+  for (Index p = 0; p < points; ++p)
+    EXPECT_GT (normals[p].dot (Eigen::Vector3f (0.0F, static_cast<float> (sharp.positions[p].y ()),
+                                                static_cast<float> (sharp.positions[p].z ()))
+                                   .normalized ()),
+               0.0F)
+        << p;
+  EXPECT_EQ (normals[3], Eigen::Vector3f::UnitZ ()) << "not made in space: only turned";
 }
 
 } // namespace
