@@ -423,6 +423,7 @@ class Browser(PageCase):
         """The pixels of the page in a browser."""
         self.check(0, BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle",
                    "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
+                   "--force-prefers-reduced-motion",  # a busy machine may draw the page before a flight ends
                    "--user-data-dir=" + self.path("profile"), "--window-size=1000,700", "--virtual-time-budget=4000",
                    "--screenshot=" + self.path("page.png"), "file://" + self.path("page.html") + anchor)
         return [pixel for row in self.pixels("page.png") for pixel in row]
