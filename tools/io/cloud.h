@@ -156,7 +156,8 @@ addColumns (std::initializer_list<const char*> names, ScalarType type, Values va
     Field& field = fields.emplace_back (Field{name, type});
     field.first = {kept, first};
     field.stride = (width > 0 ? width : names.size ()) * sizeOf (type);
-    first += sizeOf (type);
+    if (first != nullptr) // there are values
+      first += sizeOf (type);
   }
 }
 

@@ -274,7 +274,15 @@ leastMemory (std::size_t points, double kept_per_point)
 } // namespace pcl::floater
 
 // The other forms call these. Those for large alignments, which nothing here uses, stay as they are.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Sanitizers have their own; Clang tells them by features.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PCL_FLOATER_IS_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define PCL_FLOATER_IS_SANITIZED
+#endif
+#endif
+#ifndef PCL_FLOATER_IS_SANITIZED
 void*
 operator new (std::size_t size)
 {
