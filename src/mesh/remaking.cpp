@@ -382,8 +382,8 @@ private:
   std::vector<std::uint8_t> is_turned_; // of each triangle, and then of each zone
 };
 
-// True if all points of a zone were in a zone of about this size that stayed as it was. Large zones
-// hardly become smaller with fewer rings, and would come out wrong again.
+// True if each point was in a zone of this size, within a tenth, that was tried in vain. Large zones
+// hardly become smaller with fewer rings, and would come out wrong again. The tenth is by hand.
 bool
 hasFailed (Row zone, const std::vector<std::size_t>& failed)
 {
@@ -411,8 +411,10 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     remade.failed.resize (positions.size (), 0);
+    std::vector<std::uint8_t> is_tried (made.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      if (!hasFailed (zones.points.row (zone), remade.failed))
+      is_tried[zone] = hasFailed (zones.points.row (zone), remade.failed) ? 0 : 1;
+      if (is_tried[zone] != 0)
         made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone], misfits[zone]);
     });
     for (const std::vector<Index>& points : misfits)
@@ -423,7 +425,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     for (std::size_t zone = 0; zone < made.size (); ++zone)
       noisy_points += is_noise[zone] != 0 ? zones.points.row (zone).size () : 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone)
-      for (const Index p : zones.points.row (zone))
+      for (const Index p : is_tried[zone] != 0 ? zones.points.row (zone) : Row{})
         remade.failed[p] = made[zone] ? 0 : zones.points.row (zone).size ();
     if (4 * noisy_points > positions.size ()) {
       remade.is_noise = true;

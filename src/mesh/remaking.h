@@ -5,6 +5,9 @@
 
 #include "mesh/disturbed_zones.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace pcl::floater {
 /// Limits of remakeZones ().
 struct RemakingLimits
@@ -20,8 +23,8 @@ struct RemakingLimits
 struct RemadeZones
 {
   std::vector<std::uint8_t> is_remade; ///< of each point: its triangles were made anew; or empty
-  std::vector<std::size_t> failed;     ///< of each point: size of the last zone with it that stayed
-                                       ///< as it was; 0: none; or empty
+  std::vector<std::size_t> failed;     ///< of each point: size of the last zone with it that was
+                                       ///< tried in vain; 0: none; or empty
   bool is_noise = false;               ///< the cloud is noise, so that no zone can be made anew
 
   std::size_t points () const
@@ -34,14 +37,14 @@ struct RemadeZones
 /// came out wrong again, narrower by a ring each time, but wider where the new triangles did not
 /// fit to those around. A zone stays as it was if its new triangles are no manifold with those around,
 /// have a handle or a component of their own more, a lid on an opening, or not clearly fewer faults
-/// (see PieceInPlace), if it was tried with about the same points before, or if the sides of pieces of the mesh contradict each other. Components may
-/// come out with either side as the front. O(n), plus some 60 microseconds for a point of a zone;
-/// zones on all threads.
+/// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it was
+/// tried in vain before, within a tenth as large. Components may come out with either side as the
+/// front. O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
 /// \param widest    rings around what is disturbed, at first
-/// \param remade    out: adds what was done to what was done before
+/// \param[in,out] remade adds what was done to what was done before
 void
 remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,

@@ -103,6 +103,25 @@ TEST (Remaking, CuresTrianglesThatCross)
   }
 }
 
+TEST (Remaking, TriesNoZoneOfOneSizeTwice)
+{
+  for (const bool has_failed : {false, true}) {
+    Spheres spheres (0.1);
+    samples::exchange (spheres.mesh, 100, 121);
+    CrossingPairs crossing = findSelfIntersections (spheres.mesh.triangles, spheres.positions, 1);
+    const DisturbedZones zones =
+        findDisturbedZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing,
+                            crossing, {}, 1, {}, 1);
+    ASSERT_EQ (zones.points.rows (), 1U);
+    RemadeZones remade;
+    remade.failed.assign (spheres.positions.size (), has_failed ? zones.points.row (0).size () : 0);
+    remakeZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing, crossing, 1,
+                 remade, {}, 1);
+    EXPECT_EQ (remade.points (), has_failed ? 0 : zones.points.row (0).size ());
+    EXPECT_EQ (crossing.empty (), !has_failed);
+  }
+}
+
 // A point without a triangle, and a hole that its loss left.
 TEST (Remaking, BringsPointsBack)
 {
