@@ -22,10 +22,8 @@ KdTree::KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext&
   items_.reserve (positions.size ());
   for (std::size_t p = 0; p < positions.size (); ++p)
     items_.push_back ({positions[p], static_cast<Index> (p)});
-  if (!items_.empty ()) {
-    nodes_.reserve (4 * items_.size () / LARGEST_LEAF + 1);
-    build (0, static_cast<Index> (items_.size ()), run, order, nodes_);
-  }
+  nodes_.reserve (4 * items_.size () / LARGEST_LEAF + 1);
+  build (0, static_cast<Index> (items_.size ()), run, order, nodes_);
 }
 
 void
@@ -119,7 +117,7 @@ KdTree::count (const Eigen::Vector3d& query, double radius) const
 {
   const double sqr_radius = radius * radius;
   std::size_t found = 0;
-  std::vector<Index> waiting (nodes_.empty () ? 0 : 1, 0);
+  std::vector<Index> waiting (1, 0);
   while (!waiting.empty ()) {
     const Index node = waiting.back ();
     waiting.pop_back ();

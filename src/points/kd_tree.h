@@ -174,9 +174,9 @@ template <typename Visit>
 void
 KdTree::search (Index node, const Eigen::Vector3d& query, Visit& visit) const
 {
-  if (node >= nodes_.size () || visit.skips (nodes_[node]))
-    return;
   const Node& here = nodes_[node];
+  if (visit.skips (here))
+    return;
   if (here.right == NONE) {
     for (Index i = here.first; i < here.last; ++i)
       visit.add ({(items_[i].position - query).squaredNorm (), items_[i].point},

@@ -115,7 +115,7 @@ class PointSample
 public:
   PointSample (const std::vector<Eigen::Vector3d>& positions, std::size_t stride,
                const RunContext& run)
-      : stride_ (stride), tree_ (every (positions, stride), run, PointOrder::ALONG_CURVE)
+      : stride_ (stride), tree_ (every (positions, stride), run)
   {
   }
 
