@@ -29,8 +29,6 @@ struct Sector
 bool
 overlap (const Sector& a, const Sector& b)
 {
-  if (a.first == b.first || a.last == b.last)
-    return true;
   return (a.first != b.last && b.contains (a.from)) || (a.last != b.first && b.contains (a.to)) ||
          (b.first != a.last && a.contains (b.from)) || (b.last != a.first && a.contains (b.to));
 }

@@ -101,11 +101,8 @@ markOutside (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t poi
     outside.pop_back ();
     for (int i = 0; i < 3; ++i) {
       const Delaunay::Face_handle inner = face->neighbor (i);
-      if (inner->info () == OUTSIDE)
-        continue;
       const Index from = face->vertex (Delaunay::cw (i))->info ();
-      const Index to = face->vertex (Delaunay::ccw (i))->info ();
-      if (successor[from] == to || successor[to] == from)
+      if (inner->info () == OUTSIDE || successor[from] == face->vertex (Delaunay::ccw (i))->info ())
         continue;
       inner->info () = OUTSIDE;
       outside.push_back (inner);

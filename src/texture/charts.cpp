@@ -107,8 +107,7 @@ public:
     // Remaining crumbs join the cheapest neighbour.
     is_for_crumbs_ = true;
     for (Index a = 0; a < charts_.size (); ++a)
-      if (charts_[a].triangles <= limits_.most_in_crumb)
-        offerAll (a);
+      offerAll (a);
     takeOffers (run);
   }
 

@@ -64,6 +64,30 @@ TEST (ManifoldPart, DropsTheTriangleOfFewerVotesAtADoubleEdge)
   EXPECT_EQ (mesh.triangles, (std::vector<Triangle>{{0, 1, 3}}));
 }
 
+// A small component beside a larger one is an island, unless it is closed: then it is a body.
+TEST (ManifoldPart, HasNoSmallIslandsButBodies)
+{
+  const std::vector<Triangle> square{{0, 1, 2}, {0, 2, 3}}, body = tetrahedron (4, 5, 6, 7);
+  for (const bool is_closed : {true, false}) {
+    Consensus consensus;
+    consensus.triangles = body;
+    if (!is_closed)
+      consensus.triangles.resize (1);
+    consensus.triangles.insert (consensus.triangles.end (), square.begin (), square.end ());
+    consensus.triangles.push_back ({0, 3, 8});
+    consensus.triangles.push_back ({3, 9, 8});
+    consensus.triangles.push_back ({9, 10, 8});
+    consensus.votes.assign (consensus.triangles.size (), 3);
+    CsrLists neighbors; // only that point 4 is beside point 0
+    neighbors.offsets.assign (5, 0);
+    neighbors.offsets.resize (12, 1);
+    neighbors.ids = {0};
+    const std::size_t all = consensus.triangles.size ();
+    EXPECT_EQ (manifoldPart (std::move (consensus), neighbors, 9, 1).triangles.size (),
+               is_closed ? all : all - 1);
+  }
+}
+
 // The places of a crumb of the lattice of 3 x 3 x 3 points, as bits.
 using Crumb = std::uint32_t;
 

@@ -216,6 +216,11 @@ TEST (Outliers, SmallClustersFarAwayButNotSmallComponents)
         points.emplace_back (centre + 0.3 * samples::normalVector (random));
     EXPECT_EQ (outliersOf (points), lastOf (points, 3 * count));
   }
+  // In the plane of the sheet, from 5 reaches of 1.3 spacings on.
+  for (const double away : {4.5, 9.0}) {
+    const Positions points = joined (sheet, {{49.0 + away, 25.0, 0.0}});
+    EXPECT_EQ (outliersOf (points), lastOf (points, away > 6.5 ? 1 : 0)) << away;
+  }
   for (const int rows : {3, 4, 5}) // of 4 points
     for (const double size : {1.0, 10.0, 100.0}) {
       SCOPED_TRACE (testing::Message () << rows << ' ' << size);
