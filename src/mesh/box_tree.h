@@ -56,16 +56,19 @@ public:
           compare (leaf, other, visit);
   }
 
-  /// Calls visit (j) for all boxes j that overlap or touch a given box, ascending.
+  /// Calls visit (j) for all boxes j that overlap or touch a given box, ascending, until it returns
+  /// true.
   template <typename Visit>
   void forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
   {
     const Box box = roundOutwards (exact);
-    forLeaves (box, 0, [&] (std::size_t leaf) {
-      for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
-        if (boxes_[i].overlaps (box))
-          visit (i);
-    });
+    forNodes ([&box] (const Box& node) { return box.overlaps (node); },
+              [&] (std::size_t leaf) {
+                for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
+                  if (boxes_[i].overlaps (box) && visit (i))
+                    return true;
+                return false;
+              });
   }
 
   /// Calls visit (j) for all boxes j that a ray meets, unsorted, until it returns true. O(log n)

@@ -68,7 +68,8 @@ public:
     long pairs = 0;
     for (const Index t : triangles)
       if (const std::vector<Index>* const partners = partnersOf (t))
-        pairs += countPairs (t, *partners, triangles);
+        pairs += std::count_if (partners->begin (), partners->end (),
+                                [&] (Index u) { return isCountedAt (t, u, triangles); });
     return pairs;
   }
 
@@ -79,13 +80,11 @@ public:
   {
     renewBoxes (changed);
     long change = -pairsOf (changed);
-    std::vector<Index> partners;
-    for (const Index t : changed) {
-      if (change >= limit)
-        break;
-      findPartners (t, partners);
-      change += countPairs (t, partners, changed);
-    }
+    for (auto t = changed.begin (); t != changed.end () && change < limit; ++t)
+      forPartners (*t, [&] (Index u) {
+        change += isCountedAt (*t, u, changed) ? 1 : 0;
+        return change >= limit;
+      });
     return change;
   }
 
@@ -104,32 +103,25 @@ public:
       }
       partners_.erase (t);
     }
-    std::vector<Index> partners;
-    for (const Index t : changed) {
-      findPartners (t, partners);
-      for (const Index u : partners)
-        if (t < u || !contains (changed, u)) {
+    for (const Index t : changed)
+      forPartners (t, [&] (Index u) {
+        if (isCountedAt (t, u, changed)) {
           partners_[t].push_back (u);
           partners_[u].push_back (t);
         }
-    }
+        return false;
+      });
   }
 
   /// Call it after the last change was undone in the mesh.
   void reject (const std::vector<Index>& changed) { renewBoxes (changed); }
 
 private:
-  static bool contains (const std::vector<Index>& ascending, Index t)
-  {
-    return std::binary_search (ascending.begin (), ascending.end (), t);
-  }
-
   // A pair of two changed triangles is counted at the smaller one.
-  static long countPairs (Index t, const std::vector<Index>& partners,
-                          const std::vector<Index>& changed)
+  // \param changed ascending
+  static bool isCountedAt (Index t, Index u, const std::vector<Index>& changed)
   {
-    return std::count_if (partners.begin (), partners.end (),
-                          [&] (Index u) { return t < u || !contains (changed, u); });
+    return t < u || !std::binary_search (changed.begin (), changed.end (), u);
   }
 
   void renewBoxes (const std::vector<Index>& changed)
@@ -138,16 +130,16 @@ private:
       tree_.set (place_[t], boxOf (mesh_.triangles[t], positions_));
   }
 
-  void findPartners (Index t, std::vector<Index>& partners)
+  // Calls visit (u) for the triangles that cross one, until it returns true.
+  template <typename Visit>
+  void forPartners (Index t, Visit&& visit)
   {
-    partners.clear ();
     std::size_t tests = 0, exact_tests = 0;
     const Triangle& own = mesh_.triangles[t];
     tree_.forOverlaps (boxOf (own, positions_), [&] (std::size_t i) {
       const Index u = order_[i];
       ++tests;
-      if (u != t && doCross (own, mesh_.triangles[u], positions_, &exact_tests))
-        partners.push_back (u);
+      return u != t && doCross (own, mesh_.triangles[u], positions_, &exact_tests) && visit (u);
     });
     constexpr std::size_t PER_EXACT = 9; // simple tests in the additional time of an exact test
     tests_ += tests + PER_EXACT * exact_tests;

