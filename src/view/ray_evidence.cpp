@@ -19,11 +19,14 @@ RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
-  constexpr double STRAIGHT = 0.2;  // noise of 0.3 spacings along the surface has 0.1, faces 0.3
+  constexpr double BENT = 0.87;     // cosine of 30 degrees. Noise of 0.3 spacings along the surface
+                                    // turns rows by 12 degrees
+  constexpr double FEWEST_BENT = 0.02; // of the rows: such noise has 0.012, a body on a table more
   const std::vector<Eigen::Vector3d>& positions = points.positions;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
-  std::size_t looked_at = 0, in_rows = 0;
-  Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of the squares of directions
+  std::size_t looked_at = 0;
+  std::vector<Eigen::Vector3d> directions;          // of the rows
+  Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of their squares
   for (std::size_t p = step / 2; p < positions.size (); p += step) {
     const Row row = neighbors.row (p);
     if (row.size () < 2)
@@ -33,16 +36,28 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
     ++looked_at;
     if (u.dot (v) >= OPPOSITE)
       continue;
-    ++in_rows;
-    along += (u - v) * (u - v).transpose ();
+    directions.push_back ((u - v).normalized ());
+    along += directions.back () * directions.back ().transpose ();
   }
   RowEvidence rows;
-  if (in_rows == 0)
+  if (directions.empty ())
     return rows;
-  rows.share = static_cast<double> (in_rows) / static_cast<double> (looked_at);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes (along);
-  rows.across = axes.eigenvectors ().col (0);
-  rows.are_straight = axes.eigenvalues ()[1] < STRAIGHT * axes.eigenvalues ()[2];
+  const auto axesOf = [] (const Eigen::Matrix3d& squares) -> Eigen::Matrix3d {
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (squares).eigenvectors ();
+  };
+  // Most rows may have one direction, which with any other one gives the plane.
+  const Eigen::Vector3d usual = axesOf (along).col (2);
+  along.setZero ();
+  double bent = 0.0;
+  for (const Eigen::Vector3d& direction : directions)
+    if (std::abs (direction.dot (usual)) < BENT) {
+      ++bent;
+      along += direction * direction.transpose () + usual * usual.transpose ();
+    }
+  const auto in_rows = static_cast<double> (directions.size ());
+  rows.share = in_rows / static_cast<double> (looked_at);
+  rows.across = axesOf (along).col (0);
+  rows.are_straight = bent < FEWEST_BENT * in_rows;
   return rows;
 }
 

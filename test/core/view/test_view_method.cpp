@@ -189,6 +189,36 @@ TEST (ViewMethod, TheDirectionOfALineScannerIsFound)
   EXPECT_GE (right, 11);
 }
 
+// A ball on a table under parallel rays in rows 5 steps apart. Nearly all rows are those of the
+// table, which have one direction and tell nothing.
+TEST (ViewMethod, TheDirectionOfALineScannerOverATableIsFound)
+{
+  constexpr int SIDE = 120;
+  constexpr double RADIUS = 40.0;
+  for (const double elevation : {20.0, 40.0, 60.0}) {
+    SCOPED_TRACE (elevation);
+    const double angle = elevation * DEGREE;
+    const Eigen::Vector3d towards (std::cos (angle), 0.0, std::sin (angle)), row (0.0, 1.0, 0.0);
+    const Eigen::Vector3d across = towards.cross (row), centre (0.0, 0.0, RADIUS);
+    RandomStream random (385);
+    Positions points;
+    for (int i = -SIDE / 5; i <= SIDE / 5; ++i)
+      for (int j = -SIDE; j <= SIDE; ++j) {
+        Eigen::Vector3d point = 5.0 * i * across + 1.0 * j * row;
+        const Eigen::Vector3d offset = point - centre;
+        const double along = offset.dot (towards);
+        const double inside = along * along - offset.squaredNorm () + RADIUS * RADIUS;
+        point += (inside > 0.0 ? std::sqrt (inside) - along : -point.z () / towards.z ()) * towards;
+        points.emplace_back (point + 0.01 * random.normal () * towards);
+      }
+    const Result result = reconstruct (points, {});
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
+    EXPECT_TRUE (result.report.is_view);
+    EXPECT_GT (std::abs (Eigen::Vector3d (result.report.viewpoint.data ()).dot (towards)),
+               1.0 - 1e-5);
+  }
+}
+
 // A sensor that stands low on wide ground is near its mirror image below it, from where points
 // stand for the same areas.
 TEST (ViewMethod, AScannerLowOnTheGroundIsFound)

@@ -179,6 +179,13 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   EXPECT_GT (of_circles.share, 0.95);
   EXPECT_FALSE (of_circles.are_straight);
   EXPECT_GT (std::abs (of_circles.across.z ()), 0.999);
+  // Every tenth row goes up a slope: enough to know the plane of the rows.
+  for (int i = 0; i < 4000; ++i)
+    if (i / 200 % 10 == 0)
+      lines[static_cast<std::size_t> (i)].z () += 2.0 * (i % 200);
+  const RowEvidence of_slopes = rowsOf (lines);
+  EXPECT_FALSE (of_slopes.are_straight);
+  EXPECT_GT (std::abs (of_slopes.across.y ()), 0.99);
   // By chance, the second neighbour lies opposite to the first one in a quarter of all directions.
   EXPECT_LT (rowsOf (random).share, 0.5);
 }
