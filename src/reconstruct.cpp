@@ -188,6 +188,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   // Errors along the rays of a scan look like noise and scatter; of what is open, the sensor tells
   // the front.
   const bool looks_noisy = noise.is_strong || !scatter.empty ();
+  if (may_be_seen && looks_noisy)
+    samples = takePatchSamples (points.positions, geometry.neighbors, search.samples);
   if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
     if (const std::optional<Problem> problem =
             reconstructFrom (findViewpoint (points, geometry.neighbors, samples, true, looks_noisy,

@@ -340,6 +340,30 @@ takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSett
                           makeStarsOf (centres, points, planes, settings, run));
 }
 
+std::vector<AreaSample>
+takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count)
+{
+  constexpr std::size_t SIZE = 60; // points; noise of a spacing is a quarter of their radius
+  std::vector<AreaSample> samples;
+  for (const RayPatch& patch : findPointPatches (positions, neighbors, count, SIZE)) {
+    PlaneFit fit;
+    for (const Index p : patch)
+      fit.add (positions[p]);
+    const Plane plane = fit.plane ();
+    double squares = 0.0; // along the plane, from the centre
+    for (const Index p : patch) {
+      const double height = plane.height (positions[p]);
+      squares += (positions[p] - plane.centre).squaredNorm () - height * height;
+    }
+    // That of an ellipse, up to a factor.
+    const double area = squares * std::sqrt (plane.aspect) / (1.0 + plane.aspect);
+    if (area > 0.0)
+      samples.push_back ({plane.centre, plane.normal, area});
+  }
+  return samples;
+}
+
 double
 quartileSpread (std::vector<double>& values)
 {

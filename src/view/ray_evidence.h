@@ -147,7 +147,7 @@ looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint&
 struct AreaSample
 {
   Eigen::Vector3d position, normal;
-  double area; ///< of its star, times six
+  double area; ///< of its star, or of the patch around it; in any unit
 };
 
 /// At most `2 * count` points, spread evenly over the order of the points; ascending.
@@ -166,6 +166,12 @@ takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vec
 std::vector<AreaSample>
 takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
                  std::size_t count, const RunContext& run);
+
+/// Area samples of patches of points, for noise that spoils the stars of single points. O(count).
+/// \param neighbors nearest first
+std::vector<AreaSample>
+takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count);
 
 /// Logarithm of the ratio of the upper to the lower quartile.
 /// \param[in,out] values at least one, all positive; their order changes

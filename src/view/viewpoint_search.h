@@ -67,7 +67,7 @@ struct SearchLimits
 /// of the points (see explainsDensity). Clouds that fill few patches (EvidenceLimits) have no
 /// evidence.
 /// \param neighbors nearest first
-/// \param samples   SearchLimits::samples of the points, see takeAreaSamples
+/// \param samples   SearchLimits::samples of the points, see takeAreaSamples, takePatchSamples
 /// \param is_even   search evenly sampled clouds only, which need no view but for their noise and
 ///     their front; otherwise only the others
 /// \param may_be_far not for even clouds without noise: rasters of heights are even from far away

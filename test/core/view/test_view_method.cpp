@@ -219,6 +219,38 @@ TEST (ViewMethod, TheDirectionOfALineScannerOverATableIsFound)
   }
 }
 
+// Before a corner of a room, depths change by less than they do by noise from one pixel to the next.
+TEST (ViewMethod, ANoisyFrameOfACornerIsRecognised)
+{
+  constexpr int WIDTH = 100, HEIGHT = 75;
+  constexpr double FOCUS = 180.0; // pixels
+  const std::vector<samples::Plane> walls{{Eigen::Vector3d (0.3, 0.0, -1.0), -2.0},
+                                          {Eigen::Vector3d (0.0, -1.0, -0.3), -1.0},
+                                          {Eigen::Vector3d (-1.0, 0.1, -0.8), -2.2}};
+  for (const double noise : {0.003, 0.005}) { // a pixel is 0.0056 wide
+    SCOPED_TRACE (noise);
+    RandomStream random (385);
+    Positions points;
+    for (int row = -HEIGHT; row <= HEIGHT; ++row)
+      for (int column = -WIDTH; column <= WIDTH; ++column) {
+        const Eigen::Vector3d ray (column / FOCUS, row / FOCUS, 1.0);
+        double depth = std::numeric_limits<double>::infinity ();
+        for (const samples::Plane& wall : walls)
+          if (const double d = wall.offset / wall.normal.dot (ray); d > 0.0)
+            depth = std::min (depth, d);
+        points.emplace_back (depth * (1.0 + noise * random.normal ()) * ray);
+      }
+    for (Eigen::Vector3d& point : points)
+      point += Eigen::Vector3d (1.0, 2.0, 3.0);
+    const Result result = reconstruct (points, {});
+    ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
+    ASSERT_TRUE (result.report.is_view);
+    EXPECT_LT ((Eigen::Vector3d (result.report.viewpoint.data ()) - Eigen::Vector3d (1.0, 2.0, 3.0))
+                   .norm (),
+               0.005);
+  }
+}
+
 // A sensor that stands low on wide ground is near its mirror image below it, from where points
 // stand for the same areas.
 TEST (ViewMethod, AScannerLowOnTheGroundIsFound)
