@@ -162,8 +162,9 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (may_be_seen) {
     samples = known != nullptr ? known->areaSamples ()
                                : takeAreaSamples (points, planes, stars, search.samples, run);
-    if (const std::optional<Problem> problem = reconstructFrom (findViewpoint (
-            points, planes.neighbors, samples, false, true, search, limits.view.evidence, run)))
+    if (const std::optional<Problem> problem =
+            reconstructFrom (findViewpoint (points, planes.neighbors, samples, SearchReason::UNEVEN,
+                                            search, limits.view.evidence, run)))
       return *problem;
   }
   const bool is_measured = options.denoise || dropsScatter (options);
@@ -192,7 +193,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     samples = takePatchSamples (points.positions, geometry.neighbors, search.samples);
   if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
     if (const std::optional<Problem> problem =
-            reconstructFrom (findViewpoint (points, geometry.neighbors, samples, true, looks_noisy,
+            reconstructFrom (findViewpoint (points, geometry.neighbors, samples,
+                                            looks_noisy ? SearchReason::NOISE : SearchReason::OPEN,
                                             search, limits.view.evidence, run)))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {

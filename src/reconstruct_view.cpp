@@ -56,14 +56,15 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
     return of_file;
   const LocalPlanes planes =
       findPlanes (points, neighborSettings (request.options, nullptr), request);
-  const std::vector<AreaSample> samples =
-      takeAreaSamples (points, planes, starSettings (request), search.samples, run);
-  std::optional<Viewpoint> found;
-  for (const bool is_even : {false, true})
-    if (!found)
-      found =
-          findViewpoint (points, planes.neighbors, samples, is_even, true, search, evidence, run);
-  return found;
+  const auto find = [&] (const std::vector<AreaSample>& samples, SearchReason reason) {
+    return findViewpoint (points, planes.neighbors, samples, reason, search, evidence, run);
+  };
+  const std::optional<Viewpoint> found =
+      find (takeAreaSamples (points, planes, starSettings (request), search.samples, run),
+            SearchReason::UNEVEN);
+  return found ? found
+               : find (takePatchSamples (points.positions, planes.neighbors, search.samples),
+                       SearchReason::NOISE);
 }
 
 // Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on

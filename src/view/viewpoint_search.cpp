@@ -346,7 +346,7 @@ private:
 
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, bool is_even, bool may_be_far,
+               const std::vector<AreaSample>& samples, SearchReason reason,
                const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
 {
   constexpr std::size_t FEWEST_PATCHES = 16;
@@ -354,16 +354,18 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
   if (filled.patches < FEWEST_PATCHES)
     return {};
-  const ViewpointSearch search (points, neighbors, samples, limits, filled, may_be_far, run);
-  if (!is_even) {
+  const bool for_uneven = reason == SearchReason::UNEVEN;
+  const ViewpointSearch search (points, neighbors, samples, limits, filled,
+                                reason != SearchReason::OPEN, run);
+  if (for_uneven) {
     const RowEvidence rows = findRows (points, neighbors, limits.samples);
     if (rows.share > limits.rows && !rows.are_straight)
       if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
         return found;
   }
-  const std::size_t least_share = is_even ? 1 : 4; // a quarter of the patches
+  const std::size_t least_share = for_uneven ? 4 : 1; // a quarter of the patches
   if (least_share * filled.patches < evidence.patches || !search.hasSamples () ||
-      (search.spreadOfAreas () <= limits.even) != is_even)
+      (reason != SearchReason::NOISE && (search.spreadOfAreas () > limits.even) != for_uneven))
     return {};
   return search.find ();
 }

@@ -55,6 +55,15 @@ struct SearchLimits
   EvidenceExcess early{2.0, 100.0}, early_from_far{2.0, 5.0}, late{1.4, 2.0};
 };
 
+/// Why a viewpoint is searched.
+enum class SearchReason
+{
+  UNEVEN, ///< areas around points differ, or points lie in rows; nothing is searched if neither is so
+  NOISE, ///< errors along the rays may look like noise or scatter
+  OPEN ///< the front of an evenly sampled cloud. Nothing is searched if it is not even; nor are far
+       ///< places: rasters of heights are even from there
+};
+
 /// Finds the viewpoint of a cloud in two steps.
 ///
 /// Areas: a sensor spaces its rays evenly, so the area around a point grows with the square of the
@@ -68,13 +77,10 @@ struct SearchLimits
 /// evidence.
 /// \param neighbors nearest first
 /// \param samples   SearchLimits::samples of the points, see takeAreaSamples, takePatchSamples
-/// \param is_even   search evenly sampled clouds only, which need no view but for their noise and
-///     their front; otherwise only the others
-/// \param may_be_far not for even clouds without noise: rasters of heights are even from far away
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, bool is_even, bool may_be_far,
+               const std::vector<AreaSample>& samples, SearchReason reason,
                const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run);
 
 } // namespace pcl::floater

@@ -75,9 +75,9 @@ TEST_P (RastersAndSeeds, TheViewpointIsFound)
   const std::vector<AreaSample> samples =
       takeAreaSamples (points, planes, settings, SearchLimits{}.samples, 2);
   std::optional<Viewpoint> found;
-  for (const bool is_even : {false, true})
+  for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::NOISE})
     if (!found)
-      found = findViewpoint (points, planes.neighbors, samples, is_even, true, {}, {}, 2);
+      found = findViewpoint (points, planes.neighbors, samples, reason, {}, {}, 2);
   ASSERT_TRUE (found);
   if (found->is_far)
     EXPECT_GT (std::abs (found->place.dot (made.viewpoint)), 0.999);
@@ -196,7 +196,7 @@ searchEven (const Points& points)
   const LocalPlanes planes = fitLocalPlanes (points, findNeighbors (points, {}, 2), {}, {}, 2);
   const std::vector<AreaSample> samples =
       takeAreaSamples (points, planes, {}, SearchLimits{}.samples, 2);
-  return findViewpoint (points, planes.neighbors, samples, true, false, {}, {}, 2);
+  return findViewpoint (points, planes.neighbors, samples, SearchReason::OPEN, {}, {}, 2);
 }
 
 // A raster of heights is as even from far away, on either side.
