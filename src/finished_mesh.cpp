@@ -13,6 +13,25 @@
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+// Points that were set aside get the point that stands for them as a neighbour, and its neighbours.
+void
+extendNeighbors (CsrLists& neighbors, const std::vector<Index>& of)
+{
+  std::size_t entries = neighbors.ids.size ();
+  for (const Index p : of)
+    entries += neighbors.row (p).size () + 1;
+  neighbors.ids.reserve (entries); // rows stay where they are
+  for (const Index p : of) {
+    const Row row = neighbors.row (p);
+    neighbors.ids.push_back (p);
+    for (const Index q : row)
+      neighbors.ids.push_back (q);
+    neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
+  }
+}
+} // namespace
+
 MeshExamination
 examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
          const Request& request)
@@ -22,7 +41,7 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
 }
 
 Points
-addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
+addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry, MeshFinish& finish,
             const Request& request)
 {
   const std::vector<Index>& of = points.stacked.of;
@@ -34,7 +53,7 @@ addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
   extend (geometry.spacing);
   extend (geometry.own_spacing);
   extend (geometry.stars.normals);
-  geometry.neighbors = {};
+  extend (finish.remade.is_remade);
   std::vector<Index> added;
   for (std::size_t i = 0; i < of.size (); ++i)
     if (mesh.triangle_of[of[i]] != NONE)
@@ -45,7 +64,7 @@ addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
 }
 
 void
-repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
+repairSplits (TriangleMesh& mesh, const Points& points, const Points& all, LocalGeometry& geometry,
               const Request& request, MeshFinish& finish)
 {
   finish.crossing = findSelfIntersections (mesh.triangles, all.positions, request.run);
@@ -53,14 +72,8 @@ repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
   if (!repairsFlaws (request.options) ||
       (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
     return;
-  geometry.neighbors =
-      findNeighbors (all, neighborSettings (request.options, nullptr), request.run);
-  const FinishLimits& limits = request.limits.surface.finish;
-  orientNormals (mesh, all.positions, geometry.stars.normals, request.run);
-  const TriangleCost cost (all.positions, geometry.stars.normals, &geometry.meshSpacing (),
-                           limits.cost);
-  finish.repairs += repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, all.positions,
-                                 Repair::AT_THE_END, {}, limits.repair, request.run);
+  extendNeighbors (geometry.neighbors, points.stacked.of);
+  repairAtEnd (mesh, all.positions, geometry, request.limits.surface.finish, finish, request.run);
 }
 
 Problem
@@ -96,7 +109,7 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
-  report.statistics.remade_points = finish.remade_points;
+  report.statistics.remade_points = finish.remade.points ();
   report.statistics.self_intersection_flips = finish.repairs.flips;
   report.statistics.self_intersection_moves = finish.repairs.moves;
   report.statistics.self_intersection_rebuilds = finish.repairs.rebuilds;

@@ -21,17 +21,17 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
          const Request& request);
 
 /// Adds the points that were set aside to the mesh, unless the point that stands for them is not in
-/// it; extends the geometry, without neighbours.
+/// it; extends the geometry but for the neighbours, and what was made anew.
 /// \return all points
 Points
-addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry,
+addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry, MeshFinish& finish,
             const Request& request);
 
-/// Repairs the flaws that came with the points that were set aside.
+/// Repairs the flaws of a mesh with the points that were set aside.
 /// \param all            as addStacked () returned it
 /// \param[in,out] finish gets the crossing pairs, and the repairs
 void
-repairSplits (TriangleMesh& mesh, const Points& all, LocalGeometry& geometry,
+repairSplits (TriangleMesh& mesh, const Points& points, const Points& all, LocalGeometry& geometry,
               const Request& request, MeshFinish& finish);
 
 /// Makes the result of a mesh, and reports it. The end of every way.

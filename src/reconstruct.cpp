@@ -100,8 +100,8 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
   reportLoops (points, surface, report);
   std::optional<Points> all;
   if (!points.stacked.of.empty ()) {
-    all = addStacked (surface.mesh, points, geometry, request);
-    repairSplits (surface.mesh, *all, geometry, request, surface.finish);
+    all = addStacked (surface.mesh, points, geometry, surface.finish, request);
+    repairSplits (surface.mesh, points, *all, geometry, request, surface.finish);
   }
   const Points& vertices = all ? *all : points;
   MeshExamination found = examine (surface.mesh, vertices, geometry, request);

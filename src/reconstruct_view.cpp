@@ -116,7 +116,7 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   reportView (points, viewpoint, surface, report);
   std::optional<Points> all;
   if (!points.stacked.of.empty ()) {
-    all = addStacked (surface.mesh, points, geometry, request);
+    all = addStacked (surface.mesh, points, geometry, surface.finish, request);
     found = examine (surface.mesh, *all, geometry, request);
   }
   const Points& vertices = all ? *all : points;

@@ -174,12 +174,13 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   finish.flip_edges = settings.flip_edges;
   finish.open_boundary = true;
   finish.repair = finish.remake_sheets = settings.repair;
+  finish.are_points_added = !points.stacked.of.empty ();
   finish.facing = settings.facing;
   finish.limits = limits.finish;
   if (settings.holes.policy != HolePolicy::AUTO && settings.holes.policy != HolePolicy::CLOSE_ALL)
     finish.limits.remaking.disturbance.closes_gaps = false;
   surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
-  if (surface.finish.remade_points > 0)
+  if (surface.finish.remade.points () > 0)
     leaveOutClosed (surface.mesh, surface.doubtful_loops, run);
   return surface;
 }

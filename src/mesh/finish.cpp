@@ -12,6 +12,22 @@ constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
 // Rings around the zones that are made anew. With 3 again, 12 clouds and 200 generated bodies were
 // the same.
 constexpr int WIDEST = 3, WIDEST_AGAIN = 2;
+
+Repairs
+repair (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, LocalGeometry& geometry,
+        Repair kind, const FinishLimits& limits, MeshFinish& finish, const RunContext& run)
+{
+  // The triangles have changed; normals may have the wrong sign now.
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
+  const Repairs done = repairFlaws (
+      mesh, *finish.crossing, geometry.neighbors,
+      TriangleCost (positions, normals, &geometry.meshSpacing (), limits.cost), positions, kind,
+      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits.repair,
+      run);
+  finish.repairs += done;
+  return done;
+}
 } // namespace
 
 MeshFinish
@@ -40,33 +56,32 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   if (settings.repair && finish.is_repairable) {
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     finish.pairs_found = finish.crossing->size ();
-    RemadeZones remade;
-    const auto repair = [&] (Repair kind) {
-      // The triangles have changed; normals may have the wrong sign now.
-      orientNormals (mesh, positions, normals, run, remade.is_remade);
-      const Repairs done =
-          repairFlaws (mesh, *finish.crossing, geometry.neighbors, cost, positions, kind,
-                       findRidges (mesh, positions, *finish.crossing, remade.is_remade, run),
-                       settings.limits.repair, run);
-      finish.repairs += done;
-      return done.hasChanged ();
-    };
     const auto remake = [&] (int widest) {
-      if (settings.remake_sheets && finish.crossing->untested.empty () && !remade.is_noise)
+      if (settings.remake_sheets && finish.crossing->untested.empty ())
         remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
-                     widest, remade, settings.limits.remaking, run);
+                     widest, finish.remade, settings.limits.remaking, run);
     };
     remake (WIDEST);
-    if (finish.folds + finish.pairs_found + remade.points () > 0) {
+    if (finish.folds + finish.pairs_found + finish.remade.points () > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
-      if (repair (Repair::BEFORE_REMAKING))
+      if (!finish.remade.is_noise &&
+          repair (mesh, positions, geometry, Repair::BEFORE_REMAKING, settings.limits, finish, run)
+              .hasChanged ())
         remake (WIDEST_AGAIN);
-      repair (Repair::AT_THE_END);
+      if (!settings.are_points_added)
+        repairAtEnd (mesh, positions, geometry, settings.limits, finish, run);
     }
-    finish.remade_points = remade.points ();
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;
+}
+
+void
+repairAtEnd (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             LocalGeometry& geometry, const FinishLimits& limits, MeshFinish& finish,
+             const RunContext& run)
+{
+  repair (mesh, positions, geometry, Repair::AT_THE_END, limits, finish, run);
 }
 
 } // namespace pcl::floater

@@ -35,10 +35,11 @@ struct FinishSettings
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
   FacingHints facing = {};
-  bool insert_points = true;  ///< insert points that have no triangle
-  bool repair = false;        ///< repair flaws (see repairFlaws), and set MeshFinish::crossing
-  bool remake_sheets = false; ///< then make disturbed zones anew in space
-  bool open_boundary = false; ///< remove triangles that fill notches of the boundary, or fold it
+  bool insert_points = true;     ///< insert points that have no triangle
+  bool repair = false;           ///< repair flaws (see repairFlaws), and set MeshFinish::crossing
+  bool remake_sheets = false;    ///< then make disturbed zones anew in space
+  bool are_points_added = false; ///< leave the last repair to the caller, who adds points first
+  bool open_boundary = false;    ///< remove triangles that fill notches of the boundary, or fold it
 };
 
 /// Result of finishMesh.
@@ -49,7 +50,7 @@ struct MeshFinish
   bool is_repairable = true;   ///< false: more folds than FinishSettings::largest_fold_share
   std::size_t pairs_found = 0; ///< crossing pairs before any was removed
   Repairs repairs;
-  std::size_t remade_points = 0;         ///< whose triangles were made anew in space
+  RemadeZones remade;                    ///< made anew in space
   std::optional<CrossingPairs> crossing; ///< all pairs, if flaws were repaired
   MeshFacing facing;                     ///< which components were flipped, and why
 };
@@ -61,5 +62,12 @@ struct MeshFinish
 MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run);
+
+/// The last repair, which finishMesh () makes unless points are to be added.
+/// \param[in,out] finish knows all crossing pairs, and what was made anew
+void
+repairAtEnd (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+             LocalGeometry& geometry, const FinishLimits& limits, MeshFinish& finish,
+             const RunContext& run);
 
 } // namespace pcl::floater

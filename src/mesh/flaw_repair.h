@@ -49,16 +49,16 @@ struct RepairLimits
   std::size_t rebuilt_rings = 2;   ///< sizes of the patches
   std::size_t rebuilt_orders = 4;  ///< reinsertion orders of the vertices of a patch
   std::size_t largest_patch = 200; ///< vertices; with more crossings, a patch is no longer local
-  std::size_t vain_rebuilds = 16;  ///< failures to rebuild around a triangle before giving up; four
-                                   ///< times as many gave the same
-  std::size_t rebuilds_per_success = 8; ///< additional failures allowed for each success
+  std::size_t vain_rebuilds = 8; ///< failures to rebuild around a triangle before giving up; twice
+                                 ///< as many, here and below, gave about the same
+  std::size_t rebuilds_per_success = 4; ///< additional failures allowed for each success
 
   /// Pairs of triangles with overlapping boxes that may be tested: per triangle of the mesh, and
   /// minimum. Where points lie on no surface, each trial meets hundreds of triangles, and few
-  /// trials help. A test takes about a tenth of a microsecond in total, so a triangle may take 2
-  /// microseconds on average, and a small mesh a fifth of a second. Three times as many leave half
-  /// as many pairs among trees, in a third more time for the whole cloud.
-  std::size_t tests_per_triangle = 20, fewest_tests = 2'000'000;
+  /// trials help. A test takes about a tenth of a microsecond in total, so a triangle may take one
+  /// microsecond on average, and a small mesh a tenth of a second. Twice as many leave a fifth
+  /// fewer pairs among trees, in a tenth more time for the whole cloud.
+  std::size_t tests_per_triangle = 10, fewest_tests = 1'000'000;
 };
 
 /// What counts as a flaw besides triangles that cross, and what a change must not make worse.

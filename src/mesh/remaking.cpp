@@ -17,6 +17,9 @@
 
 namespace pcl::floater {
 namespace {
+// A zone of at least so many points is tried in some places first: it is noise if these are.
+constexpr std::size_t LARGE_ZONE = 2048, TRIED_PLACES = 4, TRIED_POINTS = 256;
+
 Triangle
 turnedIf (bool is_turned, Triangle t)
 {
@@ -162,20 +165,20 @@ public:
   {
   }
 
-  // \param is_noise out: see RemadePlace
+  // \param is_noise out: whether the zone is noise
   // \param misfits  out: points where the new triangles do not fit to the others
   // \return nothing if the zone is to stay as it was
   std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise,
                                  std::vector<Index>& misfits) const
   {
-    std::vector<Index> points (zone.begin (), zone.end ());
-    addRing (points);
-    addRing (points);
-    std::vector<Index> frame;
+    is_noise = 1;
+    if (isNoise (zone))
+      return std::nullopt;
+    std::vector<Index> points, frame;
     std::vector<Triangle> old;
-    const Place place = makePlace (points, zone, frame, old);
+    const Place place = makePlace (zone, points, frame, old);
     const RemadePlace made = remakePlace (place, run_);
-    is_noise = made.is_noise ? 1 : 0;
+    is_noise = pcl::floater::isNoise (made.flawed, zone.size ()) ? 1 : 0;
     if (!made.is_right || hasLid (made, points))
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
@@ -199,6 +202,23 @@ public:
   }
 
 private:
+  // Points of a zone that are near in number are near in space. The surface may end around them.
+  bool isNoise (Row zone) const
+  {
+    std::size_t flawed = 0;
+    std::vector<Index> points;
+    for (std::size_t i = 0; i < TRIED_PLACES && zone.size () >= LARGE_ZONE; ++i) {
+      const Index* const first = zone.first + i * (zone.size () / TRIED_PLACES);
+      std::vector<Index> frame;
+      std::vector<Triangle> old;
+      Place place = makePlace ({first, first + TRIED_POINTS}, points, frame, old);
+      for (std::size_t p = 0; p < points.size (); ++p)
+        place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
+      flawed += remakePlace (place, run_).flawed;
+    }
+    return pcl::floater::isNoise (flawed, TRIED_PLACES * TRIED_POINTS);
+  }
+
   void addRing (std::vector<Index>& points) const
   {
     std::vector<Index> wider = points;
@@ -211,11 +231,15 @@ private:
     sortUnique (points);
   }
 
-  // \param frame out: the triangles of the mesh in the frame
-  // \param old   out: the triangles that go
-  Place makePlace (const std::vector<Index>& points, Row zone, std::vector<Index>& frame,
+  // \param points out: the points of the place, ascending
+  // \param frame  out: the triangles of the mesh in the frame
+  // \param old    out: the triangles that go
+  Place makePlace (Row zone, std::vector<Index>& points, std::vector<Index>& frame,
                    std::vector<Triangle>& old) const
   {
+    points.assign (zone.begin (), zone.end ());
+    addRing (points);
+    addRing (points);
     const auto inPlace = [&points] (Index p) {
       const auto at = std::lower_bound (points.begin (), points.end (), p);
       return at != points.end () && *at == p ? static_cast<Index> (at - points.begin ()) : NONE;

@@ -21,10 +21,6 @@ constexpr int MENDING_ROUNDS = 50; // ends it where each change causes another o
 // many tetrahedra would take the cube of their number.
 constexpr std::size_t MENDING_WORK = 2000, LEAST_MENDING_WORK = 2'000'000;
 
-// One flawed point in so many is noise. Generated bodies with thin walls and sharp edges had at most
-// one in 25, noisy scans one in 8 to 14.
-constexpr std::size_t NOISE = 16, FEW_FLAWED = 16;
-
 // Cosine and angle of the direction in which the circle of a facet sees the centre of a ball
 // through it and another point; above its plane if positive.
 struct SeenCentre
@@ -52,7 +48,13 @@ public:
     joinOutside ();
     placeFacets ();
     decide ();
-    if ((made.is_noise = isNoise ()))
+    std::size_t free = 0;
+    for (Index p = 0; p < place_.positions.size (); ++p)
+      if (place_.is_free[p] != 0) {
+        ++free;
+        made.flawed += flawsAt (p) > 0 ? 1 : 0;
+      }
+    if (isNoise (made.flawed, free))
       return made;
     mend ();
     take (made);
@@ -291,18 +293,6 @@ private:
           pieces->push_back (std::move (members));
       }
     return count[0] == 0 || count[1] == 0 ? ENCLOSED : count[0] + count[1] - 2;
-  }
-
-  // Whether the surface is no manifold at too many points.
-  bool isNoise ()
-  {
-    std::size_t free = 0, flawed = 0;
-    for (Index p = 0; p < place_.positions.size (); ++p)
-      if (place_.is_free[p] != 0) {
-        ++free;
-        flawed += flawsAt (p) > 0 ? 1 : 0;
-      }
-    return flawed > FEW_FLAWED && flawed * NOISE > free;
   }
 
   // Moves tetrahedra, one or a piece around a point, to the other side where the surface is no

@@ -6,9 +6,13 @@
 #include "mesh/known_meshes.h"
 #include "mesh/two_sides.h"
 #include "mesh_oracle.h"
+#include "points/hilbert_curve.h"
 #include "points/neighbors.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 namespace pcl::floater {
 namespace {
@@ -43,35 +47,45 @@ neighborsOf (const Positions& positions)
 // The meshes of two spheres beside each other, as one.
 struct Spheres
 {
-  Positions positions = samples::evenSphere (400);
+  Positions positions;
   CsrLists neighbors;
   std::vector<float> spacing;
   TriangleMesh mesh;
 
-  explicit Spheres (double gap)
+  explicit Spheres (double gap, std::size_t points = 400, bool along_curve = false)
   {
-    const Positions second = samples::evenSphere (400, {2.0 + gap, 0.0, 0.0});
+    Positions first = samples::evenSphere (points);
+    if (along_curve)
+      std::sort (first.begin (), first.end (),
+                 [] (const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+                   return hilbertCode (p / 4.0) < hilbertCode (q / 4.0);
+                 });
+    Positions second = first;
+    for (Eigen::Vector3d& p : second)
+      p.x () += 2.0 + gap;
     Place place;
-    place.is_free.assign (400, 1);
-    place.is_rim = place.is_boundary = std::vector<std::uint8_t> (400, 0);
+    place.is_free.assign (points, 1);
+    place.is_rim = place.is_boundary = std::vector<std::uint8_t> (points, 0);
     samples::Mesh both;
-    for (const Positions& one : {positions, second}) {
+    for (const Positions& one : {first, second}) {
       place.positions = one;
       samples::append (both, {one, remakePlace (place, 1).triangles});
     }
     positions = both.positions;
     mesh = samples::connected (both);
     neighbors = neighborsOf (positions);
-    spacing.assign (positions.size (), 0.17F);
+    spacing.assign (positions.size (), 3.4F / std::sqrt (static_cast<float> (points)));
   }
 
-  std::size_t remake (int threads = 1)
+  std::size_t remake (int threads = 1) { return remakeAll (threads).points (); }
+
+  RemadeZones remakeAll (int threads)
   {
     CrossingPairs crossing = findSelfIntersections (mesh.triangles, positions, 1);
     RemadeZones remade;
     remakeZones (mesh, positions, neighbors, spacing, crossing, 3, remade, {}, threads);
     EXPECT_EQ (crossing, findSelfIntersections (mesh.triangles, positions, 1));
-    return remade.points ();
+    return remade;
   }
 };
 
@@ -100,6 +114,28 @@ TEST (Remaking, CuresTrianglesThatCross)
     EXPECT_EQ (topology.euler, 4);
     by_two.remake (2);
     EXPECT_EQ (by_two.mesh.triangles, spheres.mesh.triangles);
+  }
+}
+
+// A zone of all points is tried in some places first.
+TEST (Remaking, MakesALargeZoneAnewUnlessItIsNoise)
+{
+  for (const bool is_noisy : {false, true}) {
+    Spheres spheres (0.1, 3000, true);
+    for (Index p = 0; p < 5900; p += 25)
+      samples::exchange (spheres.mesh, p, p + 21);
+    std::mt19937 random (5);
+    std::normal_distribution<double> noise (0.0, 0.05);
+    for (Eigen::Vector3d& position : spheres.positions)
+      for (int k = 0; is_noisy && k < 3; ++k)
+        position[k] += noise (random);
+    const std::vector<Triangle> before = spheres.mesh.triangles;
+    const RemadeZones remade = spheres.remakeAll (2);
+    EXPECT_EQ (remade.is_noise, is_noisy);
+    EXPECT_EQ (remade.points () > 5900, !is_noisy);
+    EXPECT_EQ (spheres.mesh.triangles == before, is_noisy);
+    EXPECT_EQ (findSelfIntersections (spheres.mesh.triangles, spheres.positions, 1).empty (),
+               !is_noisy);
   }
 }
 
