@@ -14,8 +14,8 @@
 
 namespace pcl::floater {
 /// The crossing pairs of a mesh. A search changes the mesh, asks for the effect on the pairs around
-/// the changed triangles, and then accepts the change, or undoes it in the mesh and here. The
-/// number of triangles must stay.
+/// the changed triangles, and undoes the change in the mesh and here; or it makes a change and
+/// accepts it. The number of triangles must stay.
 class CrossingTable
 {
 public:
@@ -75,7 +75,7 @@ public:
 
   /// Number of pairs added by a change, minus those removed. Exact below `limit`; otherwise any
   /// number from `limit` on.
-  /// \param changed triangles, ascending; followed by accept or reject
+  /// \param changed triangles, ascending; followed by reject
   long tryChange (const std::vector<Index>& changed, long limit)
   {
     renewBoxes (changed);
@@ -88,9 +88,11 @@ public:
     return change;
   }
 
-  /// Keeps the last change.
+  /// Call it after a change of the mesh that is kept.
+  /// \param changed triangles, ascending
   void accept (const std::vector<Index>& changed)
   {
+    renewBoxes (changed);
     for (const Index t : changed) {
       const auto known = partners_.find (t);
       if (known == partners_.end ())

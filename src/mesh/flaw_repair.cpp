@@ -15,7 +15,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr long EVERY_PAIR = std::numeric_limits<long>::max ();
 constexpr std::size_t TESTS_PER_REBUILT_VERTEX = 100; // in the same time, about 11 microseconds
 
 // Whether a triangle is flawed, apart from those it crosses.
@@ -323,7 +322,6 @@ private:
   {
     change ();
     changed_ = mesh_.changedTriangles ();
-    table_.tryChange (changed_, EVERY_PAIR);
     table_.accept (changed_);
     ++step_;
     const auto normal = [this] (Index t) -> Eigen::Vector3d {

@@ -58,7 +58,7 @@ struct RepairLimits
   /// trials help. A test takes about a tenth of a microsecond in total, so a triangle may take one
   /// microsecond on average, and a small mesh a tenth of a second. Twice as many leave a fifth
   /// fewer pairs among trees, in a tenth more time for the whole cloud.
-  std::size_t tests_per_triangle = 10, fewest_tests = 1'000'000;
+  std::size_t tests_per_triangle = 10, fewest_tests = 750'000;
 };
 
 /// What counts as a flaw besides triangles that cross, and what a change must not make worse.

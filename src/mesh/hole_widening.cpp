@@ -15,7 +15,8 @@ namespace {
 // Triangles over holes, each with its loop.
 using TrianglesOverHoles = std::vector<std::pair<Index, Index>>;
 
-// The loops that follow from the removal of triangles, in the places of those that they replace.
+// The loops that follow from the removal of triangles, in the places of those that they replace; the
+// other places have no points.
 std::vector<BoundaryLoop>
 widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loops,
               const TrianglesOverHoles& removed, const std::vector<Index>& loop_of,
@@ -25,13 +26,13 @@ widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loop
   std::vector<std::uint8_t> is_widened (loops.size (), 0);
   for (const auto& [triangle, loop] : removed)
     is_widened[loop] = 1;
-  std::vector<BoundaryLoop> found = loops;
+  std::vector<BoundaryLoop> found (loops.size ());
   for (std::vector<Index>& points : boundaryLoops (widened, run)) {
     const auto own = std::find_if (points.begin (), points.end (),
                                    [&loop_of] (Index p) { return loop_of[p] != NONE; });
     if (own == points.end () || is_widened[loop_of[*own]] == 0)
       continue;
-    BoundaryLoop& loop = found[loop_of[*own]];
+    BoundaryLoop& loop = found[loop_of[*own]] = loops[loop_of[*own]];
     loop.points = std::move (points);
     measureLoop (loop, positions, spacing);
   }

@@ -263,6 +263,10 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
   PolygonFilling filling (run);
   ProgressLoop progress (run);
   for (BoundaryLoop& loop : loops) {
+    if (loop.points.empty ()) {
+      evidence.emplace_back ();
+      continue;
+    }
     std::size_t open = 0, empty = 0;
     for (const Index p : loop.points) {
       progress.next ();

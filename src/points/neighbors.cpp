@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pcl::floater {
 namespace {
@@ -250,59 +251,49 @@ findNeighbors (const Points& points, const NeighborSettings& settings, const Run
 }
 
 CsrLists
-renewRows (const CsrLists& before, Index first, std::size_t points_before,
-           const std::vector<Index>& removed, const std::function<CsrLists (const Rows&)>& search)
+renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
+                const NeighborSettings& settings, const RunContext& run)
 {
-  constexpr unsigned SHIFT = 12;
-  const auto find = [gone = removed.data ()] (std::size_t begin, std::size_t end, std::size_t p) {
-    return static_cast<std::size_t> (std::lower_bound (gone + begin, gone + end, p) - gone);
-  };
-  std::vector<std::size_t> starts; // number of removed points before every 4096th point
-  for (std::size_t i = 0; i <= (points_before >> SHIFT) + 1; ++i)
-    starts.push_back (find (0, removed.size (), i << SHIFT));
-  // The new number of a point; NONE if it was removed.
-  const auto after = [&] (Index p) {
-    const std::size_t place = find (starts[p >> SHIFT], starts[(p >> SHIFT) + 1], p);
-    return place < removed.size () && removed[place] == p ? NONE : p - static_cast<Index> (place);
-  };
-  const auto isGone = [&after] (Index p) { return after (p) == NONE; };
-  std::vector<Index> changed; // points that lost a neighbour
-  for (std::size_t r = 0; r < before.rows (); ++r) {
-    const Row row = before.row (r);
-    const Index p = after (first + static_cast<Index> (r));
-    if (p != NONE && std::any_of (row.begin (), row.end (), isGone))
-      changed.push_back (p);
+  // Of each point the removed ones before it in its block, of each block those before the block.
+  constexpr std::size_t BLOCK = 128;
+  constexpr std::uint8_t GONE = 255;
+  std::vector<std::uint8_t> gone_in_block (neighbors.rows ());
+  std::vector<Index> gone_before;
+  Index gone = 0;
+  for (Index p = 0; p < neighbors.rows (); ++p) {
+    if (p % BLOCK == 0)
+      gone_before.push_back (gone);
+    const bool is_gone = gone < removed.size () && removed[gone] == p;
+    gone_in_block[p] = is_gone ? GONE : static_cast<std::uint8_t> (gone - gone_before.back ());
+    gone += is_gone ? 1 : 0;
   }
-  const CsrLists renewed = search (Rows::of (changed));
+  const auto isGone = [&] (Index p) { return gone_in_block[p] == GONE; };
+  const auto after = [&] (Index p) { return p - gone_before[p / BLOCK] - gone_in_block[p]; };
+  std::vector<Index> changed; // points that lost a neighbour
+  for (Index p = 0; p < neighbors.rows (); ++p)
+    if (const Row row = neighbors.row (p);
+        !isGone (p) && std::any_of (row.begin (), row.end (), isGone))
+      changed.push_back (after (p));
+  const CsrLists renewed = findNeighborsOf (Rows::of (changed), points, settings, run);
   CsrLists lists;
-  lists.offsets.reserve (before.rows () + 1);
+  lists.offsets.reserve (neighbors.rows () + 1);
   lists.offsets.push_back (0);
-  lists.ids.reserve (before.ids.size ());
+  lists.ids.reserve (neighbors.ids.size ());
   std::size_t next = 0; // among the changed
-  for (std::size_t r = 0; r < before.rows (); ++r) {
-    const Index p = after (first + static_cast<Index> (r));
-    if (p == NONE)
+  for (Index p = 0; p < neighbors.rows (); ++p) {
+    if (isGone (p))
       continue;
-    if (next < changed.size () && changed[next] == p) {
+    if (next < changed.size () && changed[next] == after (p)) {
       const Row row = renewed.row (next++);
       lists.ids.insert (lists.ids.end (), row.begin (), row.end ());
     }
     else {
-      for (const Index q : before.row (r))
+      for (const Index q : neighbors.row (p))
         lists.ids.push_back (after (q));
     }
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }
   return lists;
-}
-
-CsrLists
-renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
-                const NeighborSettings& settings, const RunContext& run)
-{
-  return renewRows (neighbors, 0, neighbors.rows (), removed, [&] (const Rows& rows) {
-    return findNeighborsOf (rows, points, settings, run);
-  });
 }
 
 } // namespace pcl::floater

@@ -12,7 +12,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -86,18 +85,9 @@ CsrLists
 findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,
                std::optional<KdTree>* tree = nullptr);
 
-/// Updates neighbour lists of consecutive points after points were removed: renumbers them, and
-/// searches only for points that lost a neighbour.
-/// \param first         point of the first list, in the old numbering
-/// \param removed       points in the old numbering, ascending
-/// \param search        makes the lists of points in the new numbering, ascending
-/// \return lists of the remaining points
-CsrLists
-renewRows (const CsrLists& before, Index first, std::size_t points_before,
-           const std::vector<Index>& removed, const std::function<CsrLists (const Rows&)>& search);
-
-/// Updates the neighbour lists of all points, like renewRows (). The result equals findNeighbors
-/// ().
+/// Updates neighbour lists after points were removed: renumbers them, and searches only for points
+/// that lost a neighbour. O(n k) plus the search. The result equals findNeighbors ().
+/// \param points    those that remain
 /// \param removed   points in the old numbering, ascending
 CsrLists
 renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
