@@ -253,6 +253,16 @@ private:
     return {placeAt (q, rays_.levels[q]) - from, placeAt (q, told) - from};
   }
 
+  // Change of the depth from a ray on, for a change of its inverse depth.
+  double riseTo (Index ray, double change) const
+  {
+    const double level = rays_.levels[ray] + change;
+    if (rays_.are_parallel)
+      return std::abs (change);
+    return level > 0.0 ? std::abs (1.0 / level - rays_.depths[ray])
+                       : std::numeric_limits<double>::infinity ();
+  }
+
   // Whether the surface would bend sharply at the edge.
   bool turnsSharply (const EdgeVectors& v) const
   {
@@ -282,9 +292,17 @@ private:
       return both[end].weight > 0.0F && told (end) * change >= 0.0 &&
              std::abs (change) <= continued * std::abs (told (end));
     };
+    const auto isKnown = [&] (std::size_t end) { return both[end].weight > 0.0F; };
+    const auto mayRecede = [&] (std::size_t end) {
+      return !isKnown (end) ||
+             (told (end) * change > 0.0 &&
+              std::abs (told (end)) >=
+                  steep_noise / limits_.noise * static_cast<double> (both[end].weight) &&
+              riseTo (end == 0 ? p : q, end == 0 ? told (0) : -told (1)) > limits_.slope * width);
+    };
     if (is_steep && !goesOn (0) && !goesOn (1))
-      return true;
-    if (!(both[0].weight > 0.0F && both[1].weight > 0.0F))
+      return !(mayRecede (0) && mayRecede (1) && (isKnown (0) || isKnown (1)));
+    if (!isKnown (0) || !isKnown (1))
       return false;
     const EdgeVectors from_p = vectorsFrom (p, q, rays_.levels[p] + told (0));
     const EdgeVectors from_q = vectorsFrom (q, p, rays_.levels[q] - told (1));

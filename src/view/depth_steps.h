@@ -58,7 +58,9 @@ struct StepLimits
 /// From each end of an edge, the surface is extrapolated along the edge: inverse depths (see Rays)
 /// are affine in planes, so the triangle behind the end predicts the inverse depth at the other
 /// end. An edge is a step if it is steep, and if neither end predicts the other one: the deviation
-/// exceeds the noise, and the surface is not as steep in this direction.
+/// exceeds the noise, and the surface is not as steep in this direction. But where the surface goes
+/// the same way at both ends, steeply and beyond the noise, it is one that few rays hit, such as
+/// ground far from a low sensor.
 ///
 /// Noise of depth grows with depth in every sensor, in some with its square. It is measured as a
 /// quantile of the deviations, divided by their sums of weights, at edges of about the same depth.

@@ -126,6 +126,33 @@ TEST (ViewMethod, FewRingsMakeNoCurtains)
   }
 }
 
+// Low hills far from a low sensor, none of which hides what is behind it: rings many times as far
+// apart as they are wide, and farther behind a crest than before it.
+TEST (ViewMethod, GroundSeenAtAGrazingAngleIsWhole)
+{
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    RandomStream random (seed);
+    samples::Scene hills{{{Eigen::Vector3d::UnitZ (), 0.0}}, {}, {}};
+    hills.box.extend (Eigen::Vector3d (-35.0, -35.0, -1.0))
+        .extend (Eigen::Vector3d (35.0, 35.0, 2.0));
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 30.0 * i * DEGREE, distance = 12.0 + 20.0 * random.uniform (),
+                   radius = 300.0, height = 0.15 + 0.15 * random.uniform ();
+      hills.things.push_back (
+          {{distance * std::cos (angle), distance * std::sin (angle), height - radius},
+           radius,
+           false});
+    }
+    Scan scan;
+    scan.viewpoint = {0.0, 0.0, 1.7};
+    castRays (hills, samples::raysInRings (scan.viewpoint, 32, 1800, -25.0, 35.0 / 31.0),
+              {0.0005, 0.0}, random, scan);
+    const Result result = viewOf (scan, seenFrom (scan.viewpoint));
+    EXPECT_LT (result.report.statistics.view_steps, 20U) << seed;
+    EXPECT_EQ (result.report.check.components, 1U);
+  }
+}
+
 // The mean of the noisy points in each cell of a grid: no rays are left that tell of the sensor, but
 // the file does.
 TEST (ViewMethod, ASensorInTheFileDecidesWhereThePointsDoNotTell)
