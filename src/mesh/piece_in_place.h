@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is wrong with the mesh in a place, before and after it is made anew.
+#pragma once
+
+#include "core/disjoint_sets.h"
+#include "mesh/flaw_repair.h"
+#include "mesh/two_sides.h"
+#include "mesh/vertex_stars.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace pcl::floater {
+/// A triangle, or its other side.
+inline Triangle
+turnedIf (bool is_turned, Triangle t)
+{
+  if (is_turned)
+    std::swap (t[1], t[2]);
+  return t;
+}
+
+/// The mesh in a place: the frame and other triangles.
+class PieceInPlace
+{
+public:
+  /// \param is_turned of each patch of the frame; empty: none is
+  PieceInPlace (const Place& place, const std::vector<Triangle>& others,
+                const std::vector<std::uint8_t>& is_turned, const RunContext& run)
+      : place_ (place)
+  {
+    mesh_.triangles = others;
+    for (std::size_t i = 0; i < place.frame.size (); ++i)
+      mesh_.triangles.push_back (
+          turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
+    for (std::size_t p = 0; p < place.positions.size (); ++p)
+      is_outside_.push_back (isInside (p) ? 0 : 1);
+    is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside_);
+  }
+
+  bool isManifold () const { return is_manifold_; }
+
+  /// Points inside that have no single fan, or one that is open but at boundaries that stay.
+  std::vector<Index> misfits (const RunContext& run) const
+  {
+    const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
+    const TriangleRanges ranges (mesh_.triangles, place_.positions.size (), run);
+    StarOrder order;
+    std::vector<Index> points;
+    for (std::size_t r = 0; r < ranges.count (); ++r) {
+      const VertexStars stars (mesh_.triangles, ranges, r);
+      for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < ranges.lastPoint (r); ++p) {
+        const VertexStar star = stars.of (p);
+        if (!isInside (p))
+          continue;
+        bool fits = star.size () > 0 && order.set (star) && order.isOneFan ();
+        for (std::size_t i = 0; fits && i < star.size (); ++i)
+          fits = (order.before (i) != NONE || (stays (p) && stays (star[i].next))) &&
+                 (order.after (i) != NONE || (stays (p) && stays (star[i].previous)));
+        if (!fits)
+          points.push_back (p);
+      }
+    }
+    return points;
+  }
+
+  long twiceHandles () const
+  {
+    const std::size_t points = place_.positions.size ();
+    DisjointSets pieces = components (), loops (points);
+    std::vector<std::uint8_t> is_open (points, 0);
+    const auto triangles = static_cast<long> (mesh_.triangles.size ());
+    long open_edges = 0, twice = 0;
+    for (const MeshEdge e : boundaryEdges (mesh_)) {
+      loops.join (mesh_.from (e), mesh_.to (e));
+      is_open[mesh_.from (e)] = is_open[mesh_.to (e)] = 1;
+      ++open_edges;
+    }
+    for (Index p = 0; p < points; ++p)
+      if (mesh_.triangle_of[p] != NONE)
+        twice +=
+            (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
+    return twice - triangles + (3 * triangles + open_edges) / 2;
+  }
+
+  /// Components that have no triangle of the frame, if there is a frame.
+  std::ptrdiff_t islands () const
+  {
+    if (place_.frame.empty ())
+      return 0;
+    DisjointSets pieces = components ();
+    std::vector<std::uint8_t> is_island (place_.positions.size (), 0);
+    for (const Triangle& t : mesh_.triangles)
+      is_island[pieces.find (t[0])] = 1;
+    for (const Triangle& t : place_.frame)
+      is_island[pieces.find (t[0])] = 0;
+    return std::count (is_island.begin (), is_island.end (), 1);
+  }
+
+  /// Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
+  /// without a triangle.
+  std::size_t faults (const RunContext& run) const
+  {
+    std::size_t count = findFolds (mesh_, place_.positions, run).size () +
+                        findSelfIntersections (mesh_.triangles, place_.positions, run).size ();
+    for (const MeshEdge e : boundaryEdges (mesh_))
+      if (const Index from = mesh_.from (e), to = mesh_.to (e);
+          (isInside (from) || isInside (to)) &&
+          (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
+        ++count;
+    for (std::size_t p = 0; p < place_.positions.size (); ++p)
+      count += place_.is_free[p] != 0 && mesh_.triangle_of[p] == NONE ? 1 : 0;
+    return count;
+  }
+
+private:
+  // Connected points; those of no triangle each by themselves.
+  DisjointSets components () const
+  {
+    DisjointSets pieces (place_.positions.size ());
+    for (const Triangle& t : mesh_.triangles) {
+      pieces.join (t[0], t[1]);
+      pieces.join (t[1], t[2]);
+    }
+    return pieces;
+  }
+
+  bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
+
+  const Place& place_;
+  TriangleMesh mesh_;
+  std::vector<std::uint8_t> is_outside_; // of each point: some of its triangles may be missing
+  bool is_manifold_ = false;
+};
+
+} // namespace pcl::floater
