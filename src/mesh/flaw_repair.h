@@ -56,8 +56,8 @@ struct RepairLimits
   /// Pairs of triangles with overlapping boxes that may be tested: per triangle of the mesh, and
   /// minimum. Where points lie on no surface, each trial meets hundreds of triangles, and few
   /// trials help. A test takes about a tenth of a microsecond in total, so a triangle may take one
-  /// microsecond on average, and a small mesh a tenth of a second. Twice as many leave a fifth
-  /// fewer pairs among trees, in a tenth more time for the whole cloud.
+  /// microsecond on average, and a small mesh a tenth of a second. Three times as many leave a
+  /// fifth fewer pairs among trees, in a tenth more time for the whole cloud.
   std::size_t tests_per_triangle = 10, fewest_tests = 750'000;
 };
 

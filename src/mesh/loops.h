@@ -115,9 +115,9 @@ struct OpenLoopLimits
 bool
 isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
 
-/// Judges all loops that have points. Uses the mesh three rings into the surface, and the neighbours of the points of
-/// each loop. O(n + k log k) for a point of k neighbours, with n for the points of all rings, and
-/// O(m^3) for a loop of m points, up to 64.
+/// Judges all loops that have points. Uses the mesh three rings into the surface, and the
+/// neighbours of the points of each loop. O(n + k log k) for a point of k neighbours, with n for the
+/// points of all rings, and O(m^3) for a loop of m points, up to 64.
 /// \param mesh      with its loops open
 /// \param neighbors of each point of the mesh
 /// \param normals   of each point of the mesh, unit length, any sign

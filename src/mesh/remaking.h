@@ -38,8 +38,9 @@ struct RemadeZones
 /// fit to those around. A zone stays as it was if its new triangles are no manifold with those around,
 /// have a handle or a component of their own more, a lid on an opening, or not clearly fewer faults
 /// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it was
-/// tried in vain before, within a tenth as large. Components may come out with either side as the
-/// front. O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
+/// tried in vain before, within a tenth as large, or if it is large and some places in it are noise
+/// (see isNoise). Components may come out with either side as the front. O(n), plus some 60
+/// microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
