@@ -74,6 +74,7 @@ repairSplits (TriangleMesh& mesh, const Points& points, const Points& all, Local
     return;
   extendNeighbors (geometry.neighbors, points.stacked.of);
   repairAtEnd (mesh, all.positions, geometry, request.limits.surface.finish, finish, request.run);
+  geometry.neighbors = {};
 }
 
 Problem

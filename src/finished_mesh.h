@@ -27,7 +27,8 @@ Points
 addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry, MeshFinish& finish,
             const Request& request);
 
-/// Repairs the flaws of a mesh with the points that were set aside.
+/// Repairs the flaws of a mesh with the points that were set aside; the neighbours go.
+/// \param points         without these points
 /// \param all            as addStacked () returned it
 /// \param[in,out] finish gets the crossing pairs, and the repairs
 void

@@ -49,13 +49,13 @@ public:
                                  std::vector<Index>& misfits) const
   {
     is_noise = 1;
-    if (isNoise (zone))
+    if (looksNoisy (zone))
       return std::nullopt;
     std::vector<Index> points, frame;
     std::vector<Triangle> old;
     const Place place = makePlace (zone, points, frame, old);
     const RemadePlace made = remakePlace (place, run_);
-    is_noise = pcl::floater::isNoise (made.flawed, zone.size ()) ? 1 : 0;
+    is_noise = isNoise (made.flawed, zone.size ()) ? 1 : 0;
     if (!made.is_right || hasLid (made, points))
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
@@ -80,7 +80,7 @@ public:
 
 private:
   // Points of a zone that are near in number are near in space. The surface may end around them.
-  bool isNoise (Row zone) const
+  bool looksNoisy (Row zone) const
   {
     std::size_t flawed = 0;
     std::vector<Index> points;
@@ -93,7 +93,7 @@ private:
         place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
       flawed += remakePlace (place, run_).flawed;
     }
-    return pcl::floater::isNoise (flawed, TRIED_PLACES * TRIED_POINTS);
+    return isNoise (flawed, TRIED_PLACES * TRIED_POINTS);
   }
 
   void addRing (std::vector<Index>& points) const

@@ -293,6 +293,7 @@ private:
              std::abs (change) <= continued * std::abs (told (end));
     };
     const auto isKnown = [&] (std::size_t end) { return both[end].weight > 0.0F; };
+    // Whether the surface goes steeply towards the other end, as far as it is known.
     const auto mayRecede = [&] (std::size_t end) {
       return !isKnown (end) ||
              (told (end) * change > 0.0 &&

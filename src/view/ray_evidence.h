@@ -18,8 +18,7 @@ struct RowEvidence
 {
   double share = 0.0; ///< share of points between their two nearest neighbours, on opposite sides
   Eigen::Vector3d across = Eigen::Vector3d::Zero (); ///< unit vector across the planes of the rows
-  bool are_straight =
-      true; ///< nearly all rows have one direction, so their planes are undetermined
+  bool are_straight = true; ///< nearly all have one direction, so their planes are undetermined
 };
 
 /// \param neighbors nearest first

@@ -174,6 +174,30 @@ TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)
   EXPECT_EQ (left.statistics.self_intersection_flips + left.statistics.remade_points, 0U);
 }
 
+// Noise is repaired once, after the points that lie on others are back.
+TEST (Finish, NoiseOfStackedPointsIsRepaired)
+{
+  SurfaceSpec spec;
+  spec.kind = SurfaceKind::TORUS;
+  spec.points = 3000;
+  spec.noise = 1.0;
+  samples::Positions positions = generateSurface (spec);
+  RandomStream random (7);
+  const std::size_t alone = positions.size ();
+  for (std::size_t p = 0; p < alone; ++p) {
+    const Eigen::Vector3d offset (random.normal (), random.normal (), random.normal ());
+    positions.push_back (positions[p] + 0.002 * offset);
+  }
+  const Input input = samples::asInput (positions);
+  Options options;
+  const Report repaired = reconstruct (input, options).report;
+  options.remove_self_intersections = false;
+  const Report left = reconstruct (input, options).report;
+  EXPECT_GT (left.statistics.stacked_points, 2000U);
+  EXPECT_GT (left.check.self_intersections, 100U);
+  EXPECT_LT (2 * repaired.check.self_intersections, left.check.self_intersections);
+}
+
 TEST (Finish, ATorusLaidOutAsADiscIsRefused)
 {
   constexpr Index AROUND = 60;
