@@ -75,9 +75,10 @@ Problem
 checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
   const Limits& limits = request.limits;
-  const Curves curves = findCurves (
-      points.positions, geometry, static_cast<std::size_t> (request.options.neighbors.k),
-      limits.planes.least_aspect, limits.reach, limits.curves, request.run);
+  const Curves curves =
+      findCurves (points.positions, -points.centre / points.scale, geometry,
+                  static_cast<std::size_t> (request.options.neighbors.k),
+                  limits.planes.least_aspect, limits.reach, limits.curves, request.run);
   if (!curves.are_all)
     return {};
   const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +

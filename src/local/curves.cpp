@@ -7,32 +7,87 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace pcl::floater {
+namespace {
+// Number of points of a turn whose step to the next point is about as large as most steps; none
+// where half of the circle or more is empty.
+std::size_t
+evenSteps (std::vector<double> angles, const CurveLimits& limits)
+{
+  std::sort (angles.begin (), angles.end ());
+  std::vector<double> steps{angles.front () + 2.0 * PI - angles.back ()};
+  for (std::size_t i = 1; i < angles.size (); ++i)
+    steps.push_back (angles[i] - angles[i - 1]);
+  const double usual = median (steps);
+  if (*std::max_element (steps.begin (), steps.end ()) > PI)
+    return 0;
+  const auto isEven = [&] (double s) { return std::abs (s - usual) < limits.even_step * usual; };
+  return static_cast<std::size_t> (std::count_if (steps.begin (), steps.end (), isEven));
+}
+
+// The axis of a sensor that turns about it, if nearly all points lie in turns.
+std::optional<int>
+findTurnAxis (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& origin,
+              const CsrLists& neighbors, std::size_t nearest, std::size_t stride,
+              const CurveLimits& limits)
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    std::size_t looked_at = 0, alone = 0;
+    for (std::size_t p = 0; p < positions.size (); p += stride, ++looked_at) {
+      const Row row = neighbors.first (static_cast<Index> (p), nearest);
+      alone += std::all_of (row.begin (), row.end (),
+                            [&] (Index q) { return positions[q][axis] == positions[p][axis]; });
+    }
+    if (2 * alone < looked_at)
+      continue;
+    std::map<double, std::vector<double>> turns;
+    for (const Eigen::Vector3d& position : positions) {
+      const Eigen::Vector3d ray = position - origin;
+      turns[position[axis]].push_back (std::atan2 (ray[(axis + 2) % 3], ray[(axis + 1) % 3]));
+    }
+    std::size_t even = 0;
+    for (auto& [height, angles] : turns)
+      even += evenSteps (std::move (angles), limits);
+    if (static_cast<double> (even) >= limits.on_lines * static_cast<double> (positions.size ()))
+      return axis;
+  }
+  return {};
+}
+
+} // namespace
+
 Curves
-findCurves (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-            std::size_t neighbors, double least_aspect, const ReachLimits& reach,
-            const CurveLimits& limits, const RunContext& run)
+findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& origin,
+            const LocalGeometry& geometry, std::size_t neighbors, double least_aspect,
+            const ReachLimits& reach, const CurveLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size (), stride = n / limits.samples + 1;
   if (n < limits.least_points)
     return {};
   const std::size_t looked_at = (n + stride - 1) / stride;
+  const std::optional<int> axis =
+      findTurnAxis (positions, origin, geometry.neighbors, neighbors, stride, limits);
   std::vector<std::pair<Index, Line>> on_line;
   for (std::size_t i = 0; i < n; i += stride) {
     const auto p = static_cast<Index> (i);
-    if (const auto line =
-            lineThrough (positions, p, geometry.neighbors.first (p, neighbors), least_aspect))
+    const Row row = geometry.neighbors.first (p, neighbors);
+    if (const auto line = axis ? Line{} : lineThrough (positions, p, row, least_aspect))
       on_line.emplace_back (p, *line);
   }
   const auto points = static_cast<double> (on_line.size ());
   if (points < limits.on_lines * static_cast<double> (looked_at))
     return {};
+  const auto liesOff = [&] (const Line& line, const Eigen::Vector3d& offset) {
+    return axis ? offset[*axis] != 0.0 : liesBeside (line, offset, reach);
+  };
   const auto isJoined = [&] (const std::pair<Index, Line>& at) {
     const Index p = at.first;
     const auto isBeside = [&] (Index q) {
-      return liesBeside (at.second, positions[q] - positions[p], reach);
+      return liesOff (at.second, positions[q] - positions[p]);
     };
     const Row row = geometry.stars.neighbors.row (p);
     for (std::size_t i = 0; i + geometry.stars.open[p] < row.size (); ++i) {
@@ -46,17 +101,17 @@ findCurves (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& 
   const auto joined = std::count_if (on_line.begin (), on_line.end (), isJoined);
   if (static_cast<double> (joined) > limits.joined * points)
     return {};
-  constexpr std::size_t NEAREST = 6;
+  constexpr std::size_t NEAREST = 6; // three on either side: two steps away on average
   const KdTree tree (positions, run);
   std::vector<Neighbor> found;
   std::vector<double> apart;
   for (const auto& [p, line] : on_line) {
     const Eigen::Vector3d& here = positions[p];
     const auto isBeside = [&, &line = line] (const Neighbor&, const Eigen::Vector3d& position) {
-      return liesBeside (line, position - here, reach);
+      return liesOff (line, position - here);
     };
     tree.nearestIf (here, Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, 1, isBeside, found);
-    double step = 0.0; // three neighbours on either side: two steps away on average
+    double step = 0.0;
     const Row nearest = geometry.neighbors.first (p, NEAREST);
     for (const Index q : nearest)
       step += 0.5 * (positions[q] - here).norm () / static_cast<double> (nearest.size ());

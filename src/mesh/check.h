@@ -53,8 +53,7 @@ struct MeshExamination
 
   bool isManifold () const
   {
-    return check.nonmanifold_edges == 0 && check.nonmanifold_vertices == 0 &&
-           check.orientation_conflicts == 0;
+    return check.nonmanifold_edges == 0 && check.nonmanifold_vertices == 0;
   }
 
   /// True for one component with one boundary loop and no handle. Requires a manifold.

@@ -225,9 +225,7 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
     return {RunStatus::INTERNAL_ERROR,
             "the result is not an oriented manifold: " +
                 std::to_string (found.check.nonmanifold_edges) + " edges and " +
-                std::to_string (found.check.nonmanifold_vertices) + " points are not manifold, " +
-                std::to_string (found.check.orientation_conflicts) +
-                " edges join triangles that face opposite ways" +
+                std::to_string (found.check.nonmanifold_vertices) + " points are not manifold" +
                 (found.broken_at == NONE ? "" : ", one at " + place (points, found.broken_at)) +
                 "; please report this with the cloud"};
   if (report.loop.empty () && !found.loops.empty ()) {

@@ -4,12 +4,14 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 #include "core/csr_lists.h"
+#include "core/geometry.h"
 #include "core/run_context.h"
 #include "points/point_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <set>
 #include <stdexcept>
@@ -95,6 +97,39 @@ TEST (RunStatus, OfRunsThatFail)
   EXPECT_EQ (report.statistics.iterations_u, 10U);
   EXPECT_EQ (report.statistics.iterations_v, 10U);
   EXPECT_GT (report.statistics.relative_residual, few_iterations.disc.solver.tolerance);
+}
+
+// Three turns, `steps` times as far apart as their points, whose noise has `noise` steps.
+Positions
+turns (double steps, double noise)
+{
+  constexpr int POINTS = 300;
+  constexpr double STEP = 2.0 * PI / POINTS;
+  RandomStream random (7);
+  Positions points;
+  for (int i = 0; i < 3 * POINTS; ++i) {
+    const double angle = STEP * i, radius = 1.0 + 0.2 * std::sin (3.0 * angle) +
+                                            noise * STEP * (2.0 * random.uniform () - 1.0);
+    points.emplace_back (radius * std::cos (angle), steps * STEP * (i / POINTS),
+                         radius * std::sin (angle));
+  }
+  return points;
+}
+
+// Noise hides the lines of a sensor that turns and moves on: the rays from its axis tell them.
+TEST (RunStatus, TurnsTooFarApartAreNoSurface)
+{
+  for (const double noise : {0.0, 1.0, 4.0})
+    expectFailure (reconstruct (asInput (turns (40.0, noise)), {}), RunStatus::DEGENERATE,
+                   "along curves");
+  EXPECT_EQ (reconstruct (asInput (turns (4.0, 0.0)), {}).report.status, RunStatus::SUCCESS);
+  // The rays to points of a spiral, which fill a plate, have steps of two or three sizes.
+  Positions plates;
+  for (int i = 0; i < 3 * 300; ++i) {
+    const double radius = std::sqrt (i % 300 + 0.5), angle = 2.399963 * i;
+    plates.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 40.0 * (i / 300));
+  }
+  EXPECT_EQ (reconstruct (asInput (plates), {}).report.status, RunStatus::SUCCESS);
 }
 
 // Throws.

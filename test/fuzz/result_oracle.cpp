@@ -109,8 +109,7 @@ findFaultOfFigures (const Input& input, const Result& result, const samples::Top
 {
   const Report& report = result.report;
   const MeshCheck& check = report.check;
-  if (!check.done || check.nonmanifold_edges + check.nonmanifold_vertices > 0 ||
-      check.orientation_conflicts > 0)
+  if (!check.done || check.nonmanifold_edges + check.nonmanifold_vertices > 0)
     return "the check has not passed";
   if (check.components != topology.components || check.euler_characteristic != topology.euler ||
       check.loops.size () != topology.loops.size ())

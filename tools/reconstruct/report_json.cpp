@@ -71,10 +71,9 @@ static void
 to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
 {
   NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
-      NLOHMANN_JSON_TO, nonmanifold_edges, nonmanifold_vertices, orientation_conflicts, components,
-      euler_characteristic, genus, folds, degenerate_triangles, self_intersections,
-      has_more_self_intersections, self_intersections_at, largest_area_share, longest_edge,
-      longest_edge_at, loops))
+      NLOHMANN_JSON_TO, nonmanifold_edges, nonmanifold_vertices, components, euler_characteristic,
+      genus, folds, degenerate_triangles, self_intersections, has_more_self_intersections,
+      self_intersections_at, largest_area_share, longest_edge, longest_edge_at, loops))
 }
 
 // NOLINTEND(readability-identifier-naming)

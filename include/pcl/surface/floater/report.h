@@ -190,10 +190,8 @@ struct Verdict
 struct MeshCheck
 {
   bool done = false;                     ///< false if there was no mesh to check
-  std::size_t nonmanifold_edges = 0;     ///< edges of three or more triangles; always 0
+  std::size_t nonmanifold_edges = 0;     ///< of over two triangles, or two facing opposite ways
   std::size_t nonmanifold_vertices = 0;  ///< points with more than one fan of triangles; always 0
-  std::size_t orientation_conflicts = 0; ///< edges that both triangles traverse in the same
-                                         ///< direction; always 0
   std::size_t components = 0;            ///< sets of triangles that are connected by edges
   std::int64_t euler_characteristic = 0; ///< vertices - edges + triangles
   std::int64_t genus = 0;                ///< handles, summed over the components
