@@ -108,6 +108,8 @@ measure (const Report& report, const VerdictLimits& limits)
   const bool is_guess =
       has (report, FindingId::GUESSED_OUTSIDE) || has (report, FindingId::GUESSED_UP) ||
       has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
+  const std::size_t left_open = statistics.view_steps + statistics.view_gaps;
+  const double open = share (left_open, triangles + static_cast<double> (left_open));
   const Finding* const long_edges = find (report, FindingId::LONG_EDGES);
   const Reason why = whyCrossing (report, points, limits);
   const std::string crossing_pairs =
@@ -123,6 +125,15 @@ measure (const Report& report, const VerdictLimits& limits)
             ", since the points are noisy along the rays",
         "smooth the cloud (pcl::MovingLeastSquares), or thin it with a voxel grid several times as "
         "wide as the noise"}},
+      {open,
+       limits.open,
+       {percent (open) + " of the view is open, at depth steps and where rays are missing",
+        "scan from another place as well: what is hidden or seen edge-on from here stays open"}},
+      {share (report.check.degenerate_triangles, triangles),
+       limits.crossing,
+       {counted (report.check.degenerate_triangles, "triangle has", "triangles have") +
+            " no area, since points lie on one line",
+        "remove points from straight edges"}},
       {area,
        limits.area,
        {percent (area) + " of the area is in 1 % of the triangles, since far or sparse points are "
@@ -149,6 +160,9 @@ measure (const Report& report, const VerdictLimits& limits)
        {"edges inside are much longer than the spacing: the sampling is too sparse there, or a gap "
         "was filled",
         "more points there, or --max-edge-ratio 8"}},
+      {has (report, FindingId::SMALL_HOLES) ? 1.0 : 0.0,
+       {0.5, 2.0},
+       {"small holes stay open where the sampling may be thin", "--holes close-all closes them"}},
       {has (report, FindingId::ONE_SIDED) ? 1.0 : 0.0,
        {0.5, 2.0},
        {"the surface was cut open, since it seems one-sided",

@@ -66,9 +66,13 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   EXPECT_EQ (judge (report).value, Quality::POOR);
   expectIn (judge (report).cause, "95 % of the area");
   report.is_view = true; // far surfaces have few, large triangles
-  EXPECT_EQ (judge (report).value, Quality::USABLE);
+  report.check.self_intersections = 0;
+  EXPECT_EQ (judge (report).value, Quality::GOOD);
   report.check.folds = 700;
   expectIn (judge (report).cause, "700 edges are folded");
+  report.statistics.view_steps = 300;
+  report.statistics.view_gaps = 800;
+  expectIn (judge (report).cause, "9.9 % of the view is open");
   report.unused.resize (600);
   expectIn (judge (report).cause, "12 % of the points are in no triangle");
   EXPECT_EQ (judge (report).value, Quality::POOR);
@@ -83,8 +87,18 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "longer");
   report.findings = {{FindingId::GUESSED_UP, {}, {1}, {}}};
   expectIn (judge (report).cause, "guess");
+  report.findings = {{FindingId::SMALL_HOLES, {}, {1, 10}, {}}};
+  expectIn (judge (report).cause, "small holes");
   report.findings = {{FindingId::ONE_SIDED, {}, {8}, {}}};
   expectIn (judge (report).cause, "one-sided");
+}
+
+TEST (Verdict, OneTriangleWithoutAreaIsTold)
+{
+  Report report = cleanReport ();
+  report.check.degenerate_triangles = 2;
+  EXPECT_EQ (judge (report).value, Quality::USABLE);
+  expectIn (judge (report).cause, "2 triangles have no area");
 }
 
 TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)
