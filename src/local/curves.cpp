@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 
 namespace pcl::floater {
@@ -22,9 +21,9 @@ evenSteps (std::vector<double> angles, const CurveLimits& limits)
   std::vector<double> steps{angles.front () + 2.0 * PI - angles.back ()};
   for (std::size_t i = 1; i < angles.size (); ++i)
     steps.push_back (angles[i] - angles[i - 1]);
-  const double usual = median (steps);
   if (*std::max_element (steps.begin (), steps.end ()) > PI)
     return 0;
+  const double usual = median (steps);
   const auto isEven = [&] (double s) { return std::abs (s - usual) < limits.even_step * usual; };
   return static_cast<std::size_t> (std::count_if (steps.begin (), steps.end (), isEven));
 }
@@ -81,19 +80,17 @@ findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d
   const auto points = static_cast<double> (on_line.size ());
   if (points < limits.on_lines * static_cast<double> (looked_at))
     return {};
-  const auto liesOff = [&] (const Line& line, const Eigen::Vector3d& offset) {
-    return axis ? offset[*axis] != 0.0 : liesBeside (line, offset, reach);
+  const auto isBeside = [&] (const std::pair<Index, Line>& at, const Eigen::Vector3d& position) {
+    const Eigen::Vector3d offset = position - positions[at.first];
+    return axis ? offset[*axis] != 0.0 : liesBeside (at.second, offset, reach);
   };
   const auto isJoined = [&] (const std::pair<Index, Line>& at) {
     const Index p = at.first;
-    const auto isBeside = [&] (Index q) {
-      return liesOff (at.second, positions[q] - positions[p]);
-    };
     const Row row = geometry.stars.neighbors.row (p);
     for (std::size_t i = 0; i + geometry.stars.open[p] < row.size (); ++i) {
       const Index q = row[i], r = row[i + 1 < row.size () ? i + 1 : 0];
-      if ((isBeside (q) || isBeside (r)) && hasTriangle (geometry.stars, q, r, p) &&
-          hasTriangle (geometry.stars, r, p, q))
+      if ((isBeside (at, positions[q]) || isBeside (at, positions[r])) &&
+          hasTriangle (geometry.stars, q, r, p) && hasTriangle (geometry.stars, r, p, q))
         return true;
     }
     return false;
@@ -105,14 +102,12 @@ findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d
   const KdTree tree (positions, run);
   std::vector<Neighbor> found;
   std::vector<double> apart;
-  for (const auto& [p, line] : on_line) {
-    const Eigen::Vector3d& here = positions[p];
-    const auto isBeside = [&, &line = line] (const Neighbor&, const Eigen::Vector3d& position) {
-      return liesOff (line, position - here);
-    };
-    tree.nearestIf (here, Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, 1, isBeside, found);
+  for (const auto& at : on_line) {
+    const Eigen::Vector3d& here = positions[at.first];
+    const auto isOff = [&] (const Neighbor&, const Eigen::Vector3d& q) { return isBeside (at, q); };
+    tree.nearestIf (here, Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, 1, isOff, found);
     double step = 0.0;
-    const Row nearest = geometry.neighbors.first (p, NEAREST);
+    const Row nearest = geometry.neighbors.first (at.first, NEAREST);
     for (const Index q : nearest)
       step += 0.5 * (positions[q] - here).norm () / static_cast<double> (nearest.size ());
     if (!found.empty () && step > 0.0)

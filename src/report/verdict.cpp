@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <numeric>
 
 namespace pcl::floater {
@@ -47,12 +48,6 @@ find (const Report& report, FindingId id)
   return found == report.findings.end () ? nullptr : &*found;
 }
 
-bool
-has (const Report& report, FindingId id)
-{
-  return find (report, id) != nullptr;
-}
-
 Reason
 noisy (const Statistics& statistics)
 {
@@ -70,7 +65,7 @@ whyCrossing (const Report& report, double points, const VerdictLimits& limits)
   if (statistics.coordinate_step > limits.coarse_step)
     return {"the coordinates are coarse: their step is " + rounded (statistics.coordinate_step) +
                 " of the local spacing",
-            has (report, FindingId::COORDINATES_IN_FLOAT)
+            find (report, FindingId::COORDINATES_IN_FLOAT) != nullptr
                 ? "subtract an origin before coordinates are stored in 32 bits (--shift)"
                 : "store the coordinates with more digits"};
   const auto stacked = static_cast<double> (statistics.stacked_points);
@@ -105,9 +100,11 @@ measure (const Report& report, const VerdictLimits& limits)
       share (report.scatter.size (), points + static_cast<double> (report.scatter.size ()));
   const double outliers =
       share (report.outliers.size (), points + static_cast<double> (report.outliers.size ()));
-  const bool is_guess =
-      has (report, FindingId::GUESSED_OUTSIDE) || has (report, FindingId::GUESSED_UP) ||
-      has (report, FindingId::GUESSED_TOWARDS_VIEW) || has (report, FindingId::GUESSED_FRONT);
+  const auto flag = [&report] (std::initializer_list<FindingId> any, const Reason& reason) {
+    const bool is_raised = std::any_of (
+        any.begin (), any.end (), [&] (FindingId id) { return find (report, id) != nullptr; });
+    return Measure{is_raised ? 1.0 : 0.0, {0.5, 2.0}, reason};
+  };
   const std::size_t left_open = statistics.view_steps + statistics.view_gaps;
   const double open = share (left_open, triangles + static_cast<double> (left_open));
   const Finding* const long_edges = find (report, FindingId::LONG_EDGES);
@@ -129,11 +126,6 @@ measure (const Report& report, const VerdictLimits& limits)
        limits.open,
        {percent (open) + " of the view is open, at depth steps and where rays are missing",
         "scan from another place as well: what is hidden or seen edge-on from here stays open"}},
-      {share (report.check.degenerate_triangles, triangles),
-       limits.crossing,
-       {counted (report.check.degenerate_triangles, "triangle has", "triangles have") +
-            " no area, since points lie on one line",
-        "remove points from straight edges"}},
       {area,
        limits.area,
        {percent (area) + " of the area is in 1 % of the triangles, since far or sparse points are "
@@ -160,17 +152,16 @@ measure (const Report& report, const VerdictLimits& limits)
        {"edges inside are much longer than the spacing: the sampling is too sparse there, or a gap "
         "was filled",
         "more points there, or --max-edge-ratio 8"}},
-      {has (report, FindingId::SMALL_HOLES) ? 1.0 : 0.0,
-       {0.5, 2.0},
-       {"small holes stay open where the sampling may be thin", "--holes close-all closes them"}},
-      {has (report, FindingId::ONE_SIDED) ? 1.0 : 0.0,
-       {0.5, 2.0},
-       {"the surface was cut open, since it seems one-sided",
-        "look at the cut: thin sheets may be joined there"}},
-      {is_guess ? 1.0 : 0.0,
-       {0.5, 2.0},
-       {"which side is the front is a guess",
-        "give the place of the sensor (--viewpoint), or choose --facing"}},
+      flag ({FindingId::NO_AREA}, {"triangles have no area, since points lie on one line",
+                                   "remove points from straight edges"}),
+      flag ({FindingId::SMALL_HOLES}, {"small holes stay open where the sampling may be thin",
+                                       "--holes close-all closes them"}),
+      flag ({FindingId::ONE_SIDED}, {"the surface was cut open, since it seems one-sided",
+                                     "look at the cut: thin sheets may be joined there"}),
+      flag ({FindingId::GUESSED_OUTSIDE, FindingId::GUESSED_UP, FindingId::GUESSED_TOWARDS_VIEW,
+             FindingId::GUESSED_FRONT},
+            {"which side is the front is a guess",
+             "give the place of the sensor (--viewpoint), or choose --facing"}),
   };
 }
 

@@ -13,25 +13,22 @@ struct VerdictBounds
   double poor;
 };
 
-/// Crossing pairs and noise are measured on generated bodies, clean and noisy: meshes that are right
-/// have no crossing pair; with noise of half a spacing, four fifths of thin and sharp bodies have
-/// one in 20 triangles or more. Of 120 generated scans, 27 lack area, or have many parts or folds:
-/// of these, all but two leave 2 % of the view open or 0.2 % of the points out, and 22 of the
-/// others do. The other bounds are chosen by hand.
+/// Crossing pairs and noise are from generated bodies, clean and noisy: right meshes have no crossing
+/// pair; with noise of half a spacing, most thin and sharp ones have one in 20 triangles. Of 27 generated scans that lack area, or have many parts or folds,
+/// 25 leave 2 % of the view open or 0.2 % of the points out, of 93 others 22. The other bounds are
+/// chosen by hand.
 struct VerdictLimits
 {
-  VerdictBounds crossing = {0.0001, 0.05};  ///< crossing pairs for each triangle
-  VerdictBounds folds = {0.05, 2.0};        ///< folds for each triangle of a view; never poor by
-                                            ///< itself. True meshes of noisy depth cameras: 0.015
-  VerdictBounds open = {0.02, 2.0};         ///< share of the triangles of a view that are left open
-  VerdictBounds area = {0.25, 0.5};         ///< share of the area in the largest 1 % of the
-                                            ///< triangles: 2 % if even, 4 % with noise; not
-                                            ///< for views
-  VerdictBounds unused = {0.002, 0.1};      ///< share of the points without a triangle
-  VerdictBounds scatter = {0.05, 0.6};      ///< share of the points on no surface
-  VerdictBounds outliers = {0.002, 0.5};    ///< share of the points off any surface
-  VerdictBounds noise = {0.1, 2.0};         ///< share of the points that were projected; never poor
-                                            ///< by itself
+  VerdictBounds crossing = {0.0001, 0.05}; ///< crossing pairs for each triangle
+  VerdictBounds folds = {0.05, 2.0};       ///< folds for each triangle of a view; never poor by
+                                           ///< itself. True meshes of noisy depth cameras: 0.015
+  VerdictBounds open = {0.02, 2.0};        ///< share of the triangles of a view that are left open
+  VerdictBounds area = {0.25, 0.5};      ///< share of the area in the largest 1 % of the triangles:
+                                         ///< 2 % if even, 4 % with noise; not for views
+  VerdictBounds unused = {0.002, 0.1};   ///< share of the points without a triangle
+  VerdictBounds scatter = {0.05, 0.6};   ///< share of the points on no surface
+  VerdictBounds outliers = {0.002, 0.5}; ///< share of the points off any surface
+  VerdictBounds noise = {0.1, 2.0};      ///< share of points projected; never poor by itself
   VerdictBounds long_edges = {0.002, 0.05}; ///< long edges for each triangle
   double coarse_step = 0.2; ///< step of the coordinates, in local spacings, that explains flaws
   double many = 0.02;       ///< share of stacked, noisy or scattered points that explains flaws

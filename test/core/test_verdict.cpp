@@ -87,18 +87,12 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "longer");
   report.findings = {{FindingId::GUESSED_UP, {}, {1}, {}}};
   expectIn (judge (report).cause, "guess");
+  report.findings = {{FindingId::NO_AREA, {}, {2}, {}}};
+  expectIn (judge (report).cause, "no area");
   report.findings = {{FindingId::SMALL_HOLES, {}, {1, 10}, {}}};
   expectIn (judge (report).cause, "small holes");
   report.findings = {{FindingId::ONE_SIDED, {}, {8}, {}}};
   expectIn (judge (report).cause, "one-sided");
-}
-
-TEST (Verdict, OneTriangleWithoutAreaIsTold)
-{
-  Report report = cleanReport ();
-  report.check.degenerate_triangles = 2;
-  EXPECT_EQ (judge (report).value, Quality::USABLE);
-  expectIn (judge (report).cause, "2 triangles have no area");
 }
 
 TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)
