@@ -13,10 +13,10 @@ struct VerdictBounds
   double poor;
 };
 
-/// Crossing pairs and noise are from generated bodies, clean and noisy: right meshes have no crossing
-/// pair; with noise of half a spacing, most thin and sharp ones have one in 20 triangles. Of 27 generated scans that lack area, or have many parts or folds,
-/// 25 leave 2 % of the view open or 0.2 % of the points out, of 93 others 22. The other bounds are
-/// chosen by hand.
+/// Of generated bodies, right meshes have no crossing pair; with noise of half a spacing, most thin
+/// and sharp ones have one in 20 triangles. Of 27 generated scans without enough area, or of many
+/// parts or folds, 25 leave 2 % of the view open or 0.2 % of the points out, of 93 others 22. The
+/// other bounds are chosen by hand.
 struct VerdictLimits
 {
   VerdictBounds crossing = {0.0001, 0.05}; ///< crossing pairs for each triangle
