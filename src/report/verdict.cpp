@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <initializer_list>
 #include <numeric>
 
 namespace pcl::floater {
@@ -100,9 +99,8 @@ measure (const Report& report, const VerdictLimits& limits)
       share (report.scatter.size (), points + static_cast<double> (report.scatter.size ()));
   const double outliers =
       share (report.outliers.size (), points + static_cast<double> (report.outliers.size ()));
-  const auto flag = [&report] (std::initializer_list<FindingId> any, const Reason& reason) {
-    const bool is_raised = std::any_of (
-        any.begin (), any.end (), [&] (FindingId id) { return find (report, id) != nullptr; });
+  const auto has = [&report] (FindingId id) { return find (report, id) != nullptr; };
+  const auto flag = [] (bool is_raised, const Reason& reason) {
     return Measure{is_raised ? 1.0 : 0.0, {0.5, 2.0}, reason};
   };
   const std::size_t left_open = statistics.view_steps + statistics.view_gaps;
@@ -152,14 +150,15 @@ measure (const Report& report, const VerdictLimits& limits)
        {"edges inside are much longer than the spacing: the sampling is too sparse there, or a gap "
         "was filled",
         "more points there, or --max-edge-ratio 8"}},
-      flag ({FindingId::NO_AREA}, {"triangles have no area, since points lie on one line",
-                                   "remove points from straight edges"}),
-      flag ({FindingId::SMALL_HOLES}, {"small holes stay open where the sampling may be thin",
-                                       "--holes close-all closes them"}),
-      flag ({FindingId::ONE_SIDED}, {"the surface was cut open, since it seems one-sided",
-                                     "look at the cut: thin sheets may be joined there"}),
-      flag ({FindingId::GUESSED_OUTSIDE, FindingId::GUESSED_UP, FindingId::GUESSED_TOWARDS_VIEW,
-             FindingId::GUESSED_FRONT},
+      flag (has (FindingId::NO_AREA), {"triangles have no area, since points lie on one line",
+                                       "remove points from straight edges"}),
+      flag (!report.is_view && has (FindingId::SMALL_HOLES),
+            {"small holes stay open where the sampling may be thin",
+             "--holes close-all closes them"}),
+      flag (has (FindingId::ONE_SIDED), {"the surface was cut open, since it seems one-sided",
+                                         "look at the cut: thin sheets may be joined there"}),
+      flag (has (FindingId::GUESSED_OUTSIDE) || has (FindingId::GUESSED_UP) ||
+                has (FindingId::GUESSED_TOWARDS_VIEW) || has (FindingId::GUESSED_FRONT),
             {"which side is the front is a guess",
              "give the place of the sensor (--viewpoint), or choose --facing"}),
   };

@@ -91,6 +91,8 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "no area");
   report.findings = {{FindingId::SMALL_HOLES, {}, {1, 10}, {}}};
   expectIn (judge (report).cause, "small holes");
+  report.is_view = true; // rays are missing there
+  EXPECT_EQ (judge (report).value, Quality::GOOD);
   report.findings = {{FindingId::ONE_SIDED, {}, {8}, {}}};
   expectIn (judge (report).cause, "one-sided");
 }
