@@ -13,10 +13,10 @@ struct VerdictBounds
   double poor;
 };
 
-/// Of generated bodies, right meshes have no crossing pair; with noise of half a spacing, most thin
+/// Right meshes of generated bodies have no crossing pair; with noise of half a spacing, most thin
 /// and sharp ones have one in 20 triangles. Of 37 generated scans without enough area, or of many
-/// parts or folds, 30 leave 2 % of the view open or 0.2 % of the points out, of 123 others 32. The
-/// other bounds are chosen by hand.
+/// parts or folds, 30 leave 2 % of the view open or 0.2 % of the points out; 32 of 123 other scans
+/// do so as well. The other bounds are chosen by hand.
 struct VerdictLimits
 {
   VerdictBounds crossing = {0.0001, 0.05}; ///< crossing pairs for each triangle
