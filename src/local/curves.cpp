@@ -12,8 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// Number of points of a turn whose step to the next point is about as large as most steps; none
-// where half of the circle or more is empty.
+// Number of points of a turn whose step to the next point is about as large as most steps.
 std::size_t
 evenSteps (std::vector<double> angles, const CurveLimits& limits)
 {
@@ -21,8 +20,6 @@ evenSteps (std::vector<double> angles, const CurveLimits& limits)
   std::vector<double> steps{angles.front () + 2.0 * PI - angles.back ()};
   for (std::size_t i = 1; i < angles.size (); ++i)
     steps.push_back (angles[i] - angles[i - 1]);
-  if (*std::max_element (steps.begin (), steps.end ()) > PI)
-    return 0;
   const double usual = median (steps);
   const auto isEven = [&] (double s) { return std::abs (s - usual) < limits.even_step * usual; };
   return static_cast<std::size_t> (std::count_if (steps.begin (), steps.end (), isEven));

@@ -108,8 +108,8 @@ turns (double steps, double noise)
   RandomStream random (7);
   Positions points;
   for (int i = 0; i < 3 * POINTS; ++i) {
-    const double angle = STEP * i, radius = 1.0 + 0.2 * std::sin (3.0 * angle) +
-                                            noise * STEP * (2.0 * random.uniform () - 1.0);
+    const double angle = STEP * i,
+                 radius = 1.0 + 0.2 * std::sin (3.0 * angle) + noise * STEP * random.normal ();
     points.emplace_back (radius * std::cos (angle), steps * STEP * (i / POINTS),
                          radius * std::sin (angle));
   }
