@@ -154,25 +154,25 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
               const NeighborSettings& settings, const Request& request)
 {
   const RunContext& run = request.run;
-  const std::vector<float> before = starAgreement (geometry.stars, run);
-  const auto renewGeometry = [&] {
-    geometry = {};
-    geometry = makeLocalGeometry (points, findPlanes (points, settings, request),
-                                  starSettings (request), run);
-  };
   points.projected =
       projectNoisyPoints (points.positions, geometry.neighbors, noise, request.limits.noise, run);
-  renewGeometry ();
-  const std::vector<float> after = starAgreement (geometry.stars, run);
-  if (!keepExplained (geometry.neighbors, before, after, request.limits.noise, noise))
-    return geometry;
-  for (std::size_t p = 0; p < points.size (); ++p)
-    if (noise.at_point[p] <= 0.0F)
-      points.projected[p] = points.positions[p];
-  if (noise.noisy_points == 0)
+  LocalGeometry projected = makeLocalGeometry (points, findPlanes (points, settings, request),
+                                               starSettings (request), run);
+  keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
+                 starAgreement (projected.stars, run), request.limits.noise, noise);
+  if (noise.noisy_points == 0) {
     points.projected.clear ();
-  renewGeometry ();
-  return geometry;
+    return geometry;
+  }
+  std::vector<Index> taken_back;
+  for (Index p = 0; p < points.size (); ++p)
+    if (noise.at_point[p] <= 0.0F && points.projected[p] != points.positions[p]) {
+      points.projected[p] = points.positions[p];
+      taken_back.push_back (p);
+    }
+  if (!taken_back.empty ())
+    copyRows (geometry, taken_back, projected);
+  return projected;
 }
 
 FacingHints

@@ -18,6 +18,17 @@ beyondNeighbors (const LocalPlanes& planes, const StarSettings& settings)
     return {};
   return BeyondNeighbors{*planes.tree, planes.spacing, planes.beside};
 }
+
+// Each row of one of two tables: of the first where `is_first` is not 0.
+CsrLists
+mergeRows (const CsrLists& first, const CsrLists& second, const std::vector<std::uint8_t>& is_first)
+{
+  return makeCsrLists (second.rows (), [&] (auto&& emit) {
+    for (std::size_t p = 0; p < second.rows (); ++p)
+      for (const Index q : (is_first[p] != 0 ? first : second).row (p))
+        emit (p, q);
+  });
+}
 } // namespace
 
 LocalPlanes
@@ -81,6 +92,31 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
     geometry.spacing[p] =
         std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;
+}
+
+void
+copyRows (const LocalGeometry& from, const std::vector<Index>& rows, LocalGeometry& to)
+{
+  std::vector<std::uint8_t> is_copied (to.spacing.size ());
+  for (const Index p : rows) {
+    is_copied[p] = 1;
+    to.spacing[p] = from.spacing[p];
+    to.stars.open[p] = from.stars.open[p];
+    to.stars.normals[p] = from.stars.normals[p];
+    if (!to.stars.reach.empty ())
+      to.stars.reach[p] = from.stars.reach[p];
+  }
+  std::vector<Eigen::Vector2d> offsets;
+  if (!to.stars.offsets_in_plane.empty ())
+    for (std::size_t p = 0; p < is_copied.size (); ++p) {
+      const Stars& stars = is_copied[p] != 0 ? from.stars : to.stars;
+      const auto begin = stars.offsets_in_plane.begin ();
+      offsets.insert (offsets.end (), begin + stars.neighbors.offsets[p],
+                      begin + stars.neighbors.offsets[p + 1]);
+    }
+  to.stars.offsets_in_plane = std::move (offsets);
+  to.neighbors = mergeRows (from.neighbors, to.neighbors, is_copied);
+  to.stars.neighbors = mergeRows (from.stars.neighbors, to.stars.neighbors, is_copied);
 }
 
 } // namespace pcl::floater

@@ -59,4 +59,10 @@ LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
                    const RunContext& run, std::optional<Stars> begun = std::nullopt);
 
+/// Copies the neighbours, spacing and stars of some points. O(n k).
+/// \param rows the points, ascending
+/// \param to   of as many points
+void
+copyRows (const LocalGeometry& from, const std::vector<Index>& rows, LocalGeometry& to);
+
 } // namespace pcl::floater

@@ -326,7 +326,7 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, double distur
   return disturbed >= disturbed_share * static_cast<double> (agreement.size ());
 }
 
-bool
+void
 keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
                const std::vector<float>& after, const NoiseLimits& limits, Noise& noise)
 {
@@ -342,14 +342,12 @@ keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
   for (std::size_t p = 0; p < n; ++p) // less what it has to be
     noisy.value[p] -= static_cast<float> (1.0 - limits.unexplained) * (1.0F - before[p]);
   takeRegions (neighbors, noisy, 1, 0.0, is_explained);
-  const std::size_t measured = noise.noisy_points;
   noise.noisy_points = 0;
   for (std::size_t p = 0; p < n; ++p)
     if (is_explained[p] != 0)
       ++noise.noisy_points;
     else
       noise.at_point[p] = 0.0F;
-  return noise.noisy_points < measured;
 }
 
 std::vector<Eigen::Vector3d>

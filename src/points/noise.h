@@ -96,8 +96,7 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, double distur
 /// \param neighbors of each point, nearest first
 /// \param before agreement of the star of each point, by the positions of the points
 /// \param after  the same with projected points
-/// \return whether noise was removed
-bool
+void
 keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
                const std::vector<float>& after, const NoiseLimits& limits, Noise& noise);
 

@@ -168,6 +168,33 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
   EXPECT_EQ (makeNeighborhoods ({{0, 0, 0}}).geometry.spacing[0], 0.0F);
 }
 
+TEST (LocalGeometry, CopiesRowsOfSomePoints)
+{
+  RandomStream random (7);
+  const LocalGeometry from =
+      makeNeighborhoods (samples::jitteredGrid (12, 12, 1.0, 0.4, random)).geometry;
+  const LocalGeometry before =
+      makeNeighborhoods (samples::jitteredGrid (12, 12, 1.0, 0.1, random)).geometry;
+  LocalGeometry to = before;
+  const std::vector<Index> copied{0, 50, 51, 143};
+  copyRows (from, copied, to);
+  const auto list = [] (const Row row) { return std::vector<Index> (row.begin (), row.end ()); };
+  for (Index p = 0; p < 144; ++p) {
+    SCOPED_TRACE (p);
+    const bool is_copied = std::binary_search (copied.begin (), copied.end (), p);
+    const LocalGeometry& source = is_copied ? from : before;
+    EXPECT_EQ (list (to.neighbors.row (p)), list (source.neighbors.row (p)));
+    EXPECT_EQ (list (to.stars.neighbors.row (p)), list (source.stars.neighbors.row (p)));
+    EXPECT_EQ (to.spacing[p], source.spacing[p]);
+    EXPECT_EQ (to.stars.open[p], source.stars.open[p]);
+    EXPECT_EQ (to.stars.normals[p], source.stars.normals[p]);
+    const Index first = to.stars.neighbors.offsets[p];
+    for (std::size_t i = 0; i < to.stars.neighbors.row (p).size (); ++i)
+      EXPECT_EQ (to.stars.offsets_in_plane[first + i],
+                 source.stars.offsets_in_plane[source.stars.neighbors.offsets[p] + i]);
+  }
+}
+
 // Lines on a wavy sheet. Where they are half as far apart as the neighbours reach, or as far, a few
 // neighbours lie on one of the lines beside.
 TEST (Stars, LinesOfAnyDistanceMakeOneSheet)

@@ -89,11 +89,10 @@ TEST (Noise, IsKeptInRegionsThatItExplains)
   const std::vector<float> before (20, 0.8F);
   std::vector<float> after (20, 0.95F);
   std::fill (after.begin () + 10, after.end (), 0.85F);
-  EXPECT_TRUE (keepExplained (chains, before, after, {}, noise));
+  keepExplained (chains, before, after, {}, noise);
   EXPECT_EQ (noise.noisy_points, 9U);
   EXPECT_EQ (noise.at_point[9], 1.0F);
   EXPECT_EQ (noise.at_point[10], 0.0F);
-  EXPECT_FALSE (keepExplained (chains, before, after, {}, noise));
 }
 
 TEST (Noise, ThinSheetsAreNone)
