@@ -10,9 +10,19 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+// Compiled a second time for processors with vectors of 8 floats, which are chosen at run time. The
+// results are the same. Sanitizers do not know such functions.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define PCL_FLOATER_WIDE __attribute__ ((target_clones ("avx2", "default")))
+#else
+#define PCL_FLOATER_WIDE
+#endif
 
 namespace pcl::floater {
 RowEvidence
@@ -104,59 +114,156 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
 
 namespace {
 // Logarithm of the 90 % quantile over the 10 % quantile; 0 for few values.
+template <typename Value>
 double
-spreadOf (std::vector<double>& values)
+spreadOf (std::vector<Value>& values)
 {
   constexpr std::size_t FEW = 10;
   if (values.size () < FEW)
     return 0.0;
-  const auto [small, large] = valuesAtRanks (values, values.size () / 10, values.size () * 9 / 10);
+  const auto [low, high] = valuesAtRanks (values, values.size () / 10, values.size () * 9 / 10);
+  const auto small = static_cast<double> (low), large = static_cast<double> (high);
   constexpr double LARGEST = 10.0; // maximum of the logarithm, also for patches without rows
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }
 
-RayEvidence
-examinePatch (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
-              const Viewpoint& viewpoint, double near_ratio, bool with_rows)
+// The rays to the points of a patch, in single precision relative to the first one, which keeps
+// six digits of their small distances; and what is near those of its first half, which are judged.
+struct PatchRays
 {
-  PatchRays rays (positions, patch, viewpoint);
-  RayEvidence evidence;
-  std::vector<double> between_rays, between_rows, between_points;
-  for (std::size_t i = 0; i < patch.size () / 2; ++i) {
-    const PatchRays::Neighbors found = rays.neighborsOf (i, with_rows);
-    ++evidence.judged;
-    evidence.near += found.nearest_distance < near_ratio * found.second_distance ? 1 : 0;
-    between_rays.push_back (found.nearest_distance);
-    if (with_rows)
-      between_rows.push_back (found.across_distance);
-    between_points.push_back ((positions[patch[found.nearest]] - positions[patch[i]]).norm ());
+  std::vector<float> x, y, z;
+  std::vector<float> nearest, second; // distances to the nearest two rays; infinite if none
+  std::vector<float> across;     // to the nearest one more than 45 degrees off the direction to the
+                                 // nearest: in a scanner's raster, in the next row; 0 if none
+  std::vector<std::uint32_t> at; // the nearest, in the patch; the ray itself if there is none
+
+  PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
+             const Viewpoint& viewpoint, bool with_across)
+      : x (patch.size () + LANES), y (x.size ()), z (x.size ()), nearest (x.size ()),
+        second (x.size ()), across (x.size ()), at (x.size ())
+  {
+    Eigen::Vector3d first = Eigen::Vector3d::Zero ();
+    for (std::size_t i = 0; i < patch.size (); ++i) {
+      const Eigen::Vector3d direction = rayTo (positions[patch[i]], viewpoint).direction;
+      if (i == 0)
+        first = direction;
+      const Eigen::Vector3f offset = (direction - first).cast<float> ();
+      x[i] = offset.x ();
+      y[i] = offset.y ();
+      z[i] = offset.z ();
+    }
+    const auto size = static_cast<std::uint32_t> (patch.size ());
+    for (std::uint32_t i = 0; i < size / 2; i += LANES)
+      judge (i, size, with_across);
+    for (std::vector<float>* const distances : {&nearest, &second, &across})
+      distances->resize (size / 2);
   }
-  evidence.ray_spread = spreadOf (between_rays);
-  evidence.row_spread = spreadOf (between_rows);
-  evidence.point_spread = spreadOf (between_points);
-  return evidence;
-}
+
+private:
+  static constexpr std::uint32_t LANES = 8; // rays that are judged at once, by vector instructions
+  static constexpr float NONE_YET = std::numeric_limits<float>::infinity ();
+  using Floats = std::array<float, LANES>;
+
+  PCL_FLOATER_WIDE void judge (std::uint32_t first, std::uint32_t size, bool with_across)
+  {
+    Floats px, py, pz, d1, d2, dx, dy, dz;
+    std::array<std::uint32_t, LANES> own, best;
+    for (std::uint32_t k = 0; k < LANES; ++k) {
+      own[k] = best[k] = first + k;
+      px[k] = x[first + k];
+      py[k] = y[first + k];
+      pz[k] = z[first + k];
+      d1[k] = d2[k] = NONE_YET;
+    }
+    for (std::uint32_t i = 0; i < size; ++i)
+      for (std::uint32_t k = 0; k < LANES; ++k) {
+        const float u = x[i] - px[k], v = y[i] - py[k], w = z[i] - pz[k];
+        const float sum = u * u + v * v + w * w;
+        const float square = (i != own[k]) & (sum < NONE_YET) ? sum : NONE_YET;
+        const float one = d1[k], two = d2[k];
+        const std::uint32_t at_one = best[k];
+        // No choice of integers by floats, which would stay scalar.
+        const std::uint32_t mask = square < one ? ~0U : 0U;
+        const float rest = square < one ? one : square;
+        d1[k] = square < one ? square : one;
+        best[k] = (i & mask) | (at_one & ~mask);
+        d2[k] = rest < two ? rest : two;
+      }
+    for (std::uint32_t k = 0; k < LANES; ++k) {
+      at[own[k]] = best[k];
+      nearest[own[k]] = std::sqrt (d1[k]);
+      second[own[k]] = std::sqrt (d2[k]);
+      dx[k] = x[best[k]] - px[k];
+      dy[k] = y[best[k]] - py[k];
+      dz[k] = z[best[k]] - pz[k];
+      d1[k] *= 0.5F; // squared cosine of 45 degrees
+      d2[k] = NONE_YET;
+    }
+    if (!with_across)
+      return;
+    for (std::uint32_t i = 0; i < size; ++i)
+      for (std::uint32_t k = 0; k < LANES; ++k) {
+        const float u = x[i] - px[k], v = y[i] - py[k], w = z[i] - pz[k];
+        const float square = u * u + v * v + w * w;
+        const float part = u * dx[k] + v * dy[k] + w * dz[k];
+        const bool is_across = (i != best[k]) & (square > 0.0F) & (part * part <= d1[k] * square);
+        d2[k] = is_across & (square < d2[k]) ? square : d2[k];
+      }
+    for (std::uint32_t k = 0; k < LANES; ++k)
+      across[own[k]] = d2[k] < NONE_YET ? std::sqrt (d2[k]) : 0.0F;
+  }
+};
 
 } // namespace
 
 RayEvidence
 findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run, bool with_rows)
+                 const EvidenceLimits& limits, const RunContext& run)
 {
   std::vector<RayEvidence> found (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    found[k] = examinePatch (positions, patches[k], viewpoint, limits.near_ratio, with_rows);
+    const RayPatch& patch = patches[k];
+    PatchRays rays (positions, patch, viewpoint, false);
+    RayEvidence& evidence = found[k];
+    evidence.judged = rays.nearest.size ();
+    std::vector<double> between_points;
+    for (std::size_t i = 0; i < evidence.judged; ++i) {
+      evidence.near += static_cast<double> (rays.nearest[i]) <
+                               limits.near_ratio * static_cast<double> (rays.second[i])
+                           ? 1
+                           : 0;
+      between_points.push_back ((positions[patch[rays.at[i]]] - positions[patch[i]]).norm ());
+    }
+    evidence.ray_spread = spreadOf (rays.nearest);
+    evidence.point_spread = spreadOf (between_points);
   });
   RayEvidence evidence;
   for (const RayEvidence& patch : found) {
     evidence.judged += patch.judged;
     evidence.near += patch.near;
     evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
-    evidence.row_spread += patch.row_spread / static_cast<double> (found.size ());
     evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
   }
   return evidence;
+}
+
+double
+findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
+               const Viewpoint& viewpoint, bool with_rows, const RunContext& run)
+{
+  std::vector<double> of_rays (patches.size ()), of_rows (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    PatchRays rays (positions, patches[k], viewpoint, with_rows);
+    of_rays[k] = spreadOf (rays.nearest);
+    of_rows[k] = with_rows ? spreadOf (rays.across) : 0.0;
+  });
+  double rays = 0.0, rows = 0.0;
+  for (std::size_t k = 0; k < patches.size (); ++k) {
+    rays += of_rays[k] / static_cast<double> (patches.size ());
+    rows += of_rows[k] / static_cast<double> (patches.size ());
+  }
+  return rays + rows;
 }
 
 bool

@@ -14,6 +14,9 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Points of a patch of rays, sorted by the angle to the first ray.
+using RayPatch = std::vector<Index>;
+
 struct RowEvidence
 {
   double share = 0.0; ///< share of points between their two nearest neighbours, on opposite sides
@@ -95,8 +98,6 @@ struct RayEvidence
   std::size_t near = 0;      ///< those that are near another one
   double ray_spread = 0.0;   ///< logarithm of the ratio of large to small distances between
                              ///< neighbouring rays (their 90 and 10 % quantiles); mean of patches
-  double row_spread = 0.0;   ///< spread of the distances to the nearest ray across the direction of
-                             ///< the nearest: to the next row of a scanner
   double point_spread = 0.0; ///< spread of the distances in space between their points
 
   double nearShare () const
@@ -112,11 +113,16 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
 
 /// Evidence from the rays of the patches, which may come from another viewpoint nearby. O(patches *
 /// points of a patch squared).
-/// \param with_rows also RayEvidence::row_spread, at twice the time
 RayEvidence
 findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run, bool with_rows = false);
+                 const EvidenceLimits& limits, const RunContext& run);
+
+/// RayEvidence::ray_spread, to which `with_rows` adds the spread of the distances to the nearest ray
+/// across the direction of the nearest: to the next row of a scanner. Same cost, or less.
+double
+findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
+               const Viewpoint& viewpoint, bool with_rows, const RunContext& run);
 
 /// Whether the evidence shows that the cloud was seen from the viewpoint.
 bool

@@ -251,9 +251,7 @@ private:
   double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches,
                      const RunContext& run, bool with_rows = true) const
   {
-    const RayEvidence found =
-        findRayEvidence (positions_, patches, viewpoint, evidence_, run, with_rows);
-    return found.ray_spread + (with_rows ? found.row_spread : 0.0);
+    return findRaySpread (positions_, patches, viewpoint, with_rows, run);
   }
 
   // Areas hardly separate far viewpoints: parallel rays are tried first.
