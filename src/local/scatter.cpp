@@ -74,14 +74,22 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
     }
   });
   std::vector<std::uint8_t> is_scatter (n), is_not_noise (n);
-  takeRegions (geometry.neighbors, strewn, limits.least, is_certain ? limits.dimension : 0.0,
-               is_scatter);
+  const auto take = [&] (double least_mean, std::vector<std::uint8_t>& taken) {
+    takeRegions (geometry.neighbors, strewn, limits.least, is_certain ? least_mean : 0.0, taken);
+  };
+  take (limits.dimension_if_not_noisy, is_scatter);
   if (is_certain) {
     for (std::size_t p = 0; p < n; ++p)
       strewn.value[p] = noise.at_point[p] > 0.0F ? 0.0F : 1.0F;
-    takeRegions (geometry.neighbors, strewn, limits.least, limits.not_noisy, is_not_noise);
-    for (std::size_t p = 0; p < n; ++p)
+    take (limits.not_noisy, is_not_noise);
+    for (std::size_t p = 0; p < n; ++p) {
       is_scatter[p] &= is_not_noise[p];
+      strewn.value[p] = may_be_uneven ? noise.dimension[p] : 0.0F;
+    }
+    take (limits.dimension, is_scatter);
+    for (std::size_t p = 0; p < n && may_be_uneven; ++p)
+      strewn.value[p] += noise.dimension[p] - noise.smaller_dimension[p]; // at the next scale
+    take (limits.dimension, is_scatter);
   }
   takeRegions (geometry.neighbors, distant, limits.least_far, 0.5, is_scatter);
   std::vector<Index> scatter;

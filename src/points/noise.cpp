@@ -54,7 +54,7 @@ struct Place
 {
   float noise = 0.0F;
   float unevenness = 0.0F; // residual in spacings at the flattest scale; below 0: unknown
-  float dimension = 0.0F;  // 0: unknown
+  float dimension = 0.0F, smaller_dimension = 0.0F; // 0: unknown
 };
 
 // Measures the noise at one point; scratch is reused from point to point.
@@ -113,16 +113,18 @@ public:
     for (const double value : relative)
       if (value >= 0.0 && (flattest < 0.0F || value < flattest))
         flattest = static_cast<float> (value);
-    return {static_cast<float> (noise), flattest,
-            static_cast<float> (0.5 * (growth (half[1], half[2]) + growth (whole[1], whole[2])))};
+    const double smaller = 0.5 * (growth (half[0], half[1]) + growth (whole[0], whole[1]));
+    const double dimension = 0.5 * (growth (half[1], half[2]) + growth (whole[1], whole[2]));
+    return {static_cast<float> (noise), flattest, static_cast<float> (dimension),
+            static_cast<float> (smaller > 0.0 ? smaller : dimension)};
   }
 
 private:
-  // By which power of the distance the number of points grows from the second scale to the third.
+  // By which power of the distance the number of points grows from a scale to the next.
   static double growth (double smaller, double larger)
   {
     return smaller > 0.0 && larger > smaller
-               ? std::log (STRIDES[2] / STRIDES[1]) / std::log (larger / smaller)
+               ? std::log (STRIDES[1] / STRIDES[0]) / std::log (larger / smaller)
                : 0.0;
   }
 
@@ -293,6 +295,7 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   if (places.are_uneven) {
     noise.unevenness = around (&Place::unevenness, 0.5);
     noise.dimension = around (&Place::dimension, 0.5);
+    noise.smaller_dimension = around (&Place::smaller_dimension, 0.5);
   }
   if (!places.are_noisy)
     return noise;

@@ -68,6 +68,8 @@ struct Noise
   /// from 40 to 160 and from 80 to 320 points, median of the probes around; 2 on a surface. Empty
   /// as unevenness is.
   std::vector<float> dimension;
+  /// The same at a smaller scale, from 10 to 40 and from 20 to 80 points.
+  std::vector<float> smaller_dimension;
   double median = 0.0, quantile_90 = 0.0, largest = 0.0; ///< over all points, in local spacings
   bool is_strong = false;                                ///< see isStrong; set by the caller
 };

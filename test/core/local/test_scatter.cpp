@@ -162,6 +162,21 @@ TEST (Scatter, ThinThingsStayHoweverNoisy)
   }
 }
 
+// In a ball of 320 points around any of theirs, three plates are hardly less than a volume.
+TEST (Scatter, PlatesStay)
+{
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    RandomStream random (seed);
+    Positions plates = samples::randomPoints (1500, seed);
+    for (std::size_t i = 0; i < plates.size (); ++i) {
+      plates[i] = std::sqrt (500.0) * plates[i]; // spacings
+      plates[i].z () = 2.5 * static_cast<double> (i % 3);
+      plates[i] += 0.3 * Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
+    }
+    EXPECT_TRUE (reportOn (plates, ScatterPolicy::AUTO).scatter.empty ());
+  }
+}
+
 // A few points far behind a ball, ever farther apart, have most of the area; a coarse wall is one.
 TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
 {
