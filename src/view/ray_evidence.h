@@ -6,7 +6,6 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
-#include "local/local_geometry.h"
 #include "points/neighbors.h"
 #include "points/points.h"
 #include "view/rays.h"
@@ -148,47 +147,5 @@ mayBeSeenFrom (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& v
 bool
 looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits);
-
-/// A point and the area around it.
-struct AreaSample
-{
-  Eigen::Vector3d position, normal;
-  double area; ///< of its star, or of the patch around it; in any unit
-};
-
-/// At most `2 * count` points, spread evenly over the order of the points; ascending.
-std::vector<Index>
-areaSampleCentres (std::size_t points, std::size_t count);
-
-/// The samples of some points, except those with an open star. O(count).
-/// \param stars the i-th belongs to centres[i]
-std::vector<AreaSample>
-takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-                 const Stars& stars);
-
-/// Area samples at at most `2 * count` points, spread evenly over their order, except those with an
-/// open star. O(count).
-/// \param settings of the stars
-std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-                 std::size_t count, const RunContext& run);
-
-/// Area samples of patches of points, for noise that spoils the stars of single points. O(count).
-/// \param neighbors nearest first
-std::vector<AreaSample>
-takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  std::size_t count);
-
-/// Logarithm of the ratio of the upper to the lower quartile.
-/// \param[in,out] values at least one, all positive; their order changes
-double
-quartileSpread (std::vector<double>& values);
-
-/// Spread of the solid angles of the samples from a viewpoint: area, times the cosine between
-/// normal and ray, over the squared distance.
-/// \param angles scratch, one for each sample
-double
-areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
-            std::vector<double>& angles);
 
 } // namespace pcl::floater

@@ -5,7 +5,7 @@
 
 #include "points/neighbors.h"
 #include "points/points.h"
-#include "view/ray_evidence.h"
+#include "view/area_samples.h"
 
 #include <optional>
 #include <vector>

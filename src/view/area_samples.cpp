@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/area_samples.h"
+
+#include "core/order_statistics.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl::floater {
+std::vector<Index>
+areaSampleCentres (std::size_t points, std::size_t count)
+{
+  // Half of them are spare: points with open stars have no area.
+  const std::size_t step = std::max<std::size_t> (1, points / (2 * count));
+  std::vector<Index> centres;
+  for (std::size_t p = step / 2; p < points && centres.size () < 2 * count; p += step)
+    centres.push_back (static_cast<Index> (p));
+  return centres;
+}
+
+std::vector<AreaSample>
+takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
+                 const Stars& stars)
+{
+  std::vector<AreaSample> samples;
+  for (std::size_t k = 0; k < centres.size (); ++k) {
+    if (stars.open[k] != 0)
+      continue;
+    const Eigen::Vector3d& centre = positions[centres[k]];
+    const Row star = stars.neighbors.row (static_cast<Index> (k));
+    double area = 0.0;
+    for (std::size_t i = 0; i < star.size (); ++i)
+      area += (positions[star[i]] - centre)
+                  .cross (positions[star[(i + 1) % star.size ()]] - centre)
+                  .norm ();
+    if (area > 0.0)
+      samples.push_back ({centre, stars.normals[k].cast<double> (), area});
+  }
+  return samples;
+}
+
+std::vector<AreaSample>
+takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+                 std::size_t count, const RunContext& run)
+{
+  const std::vector<Index> centres = areaSampleCentres (points.size (), count);
+  return takeAreaSamples (centres, points.positions,
+                          makeStarsOf (centres, points, planes, settings, run));
+}
+
+std::vector<AreaSample>
+takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count)
+{
+  constexpr std::size_t SIZE = 60; // points; noise of a spacing is a quarter of their radius
+  std::vector<AreaSample> samples;
+  for (const RayPatch& patch : findPointPatches (positions, neighbors, count, SIZE)) {
+    PlaneFit fit;
+    for (const Index p : patch)
+      fit.add (positions[p]);
+    const Plane plane = fit.plane ();
+    double squares = 0.0; // along the plane, from the centre
+    for (const Index p : patch) {
+      const double height = plane.height (positions[p]);
+      squares += (positions[p] - plane.centre).squaredNorm () - height * height;
+    }
+    // That of an ellipse, up to a factor.
+    const double area = squares * std::sqrt (plane.aspect) / (1.0 + plane.aspect);
+    if (area > 0.0)
+      samples.push_back ({plane.centre, plane.normal, area});
+  }
+  return samples;
+}
+
+double
+quartileSpread (std::vector<double>& values)
+{
+  const auto [lower, upper] = valuesAtRanks (values, values.size () / 4, values.size () * 3 / 4);
+  return std::log (upper / lower);
+}
+
+double
+areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
+            std::vector<double>& angles)
+{
+  // At grazing rays, normal and area are too uncertain for smaller cosines.
+  constexpr double LEAST_COSINE = 0.02;
+  angles.clear ();
+  for (const AreaSample& sample : samples) {
+    const Eigen::Vector3d ray =
+        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (sample.position - viewpoint.place);
+    const double sqr_distance = ray.squaredNorm ();
+    const double cosine = std::abs (sample.normal.dot (ray)) / std::sqrt (sqr_distance);
+    angles.push_back (sample.area * std::max (cosine, LEAST_COSINE) / sqr_distance);
+  }
+  return quartileSpread (angles);
+}
+
+} // namespace pcl::floater
