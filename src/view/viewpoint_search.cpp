@@ -65,7 +65,7 @@ public:
     constexpr double LEAST = 0.1;
     parallelTasks (run_, count, [&] (std::size_t k) {
       candidates[k].cost =
-          costByRays (candidates[k].viewpoint, patches, run_.withThreads (1), false);
+          findRaySpread (positions_, patches, candidates[k].viewpoint, false, run_.withThreads (1));
     });
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     if (candidates.front ().cost > LEAST * candidates[count / 2].cost)
@@ -110,8 +110,8 @@ public:
     parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
       const RunContext one = run_.withThreads (1);
       const Viewpoint& place = candidates[k].viewpoint;
-      candidates[k].cost =
-          costByRays (place, findRayPatches (positions_, place, coarse_, one), one);
+      candidates[k].cost = findRaySpread (
+          positions_, findRayPatches (positions_, place, coarse_, one), place, true, one);
     });
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     candidates.resize (std::min (candidates.size (), limits_.by_rays));
@@ -139,8 +139,8 @@ private:
   {
     if (!found)
       return false;
-    const double cost =
-        costByRays (*found, findRayPatches (positions_, *found, evidence_, run_), run_);
+    const double cost = findRaySpread (
+        positions_, findRayPatches (positions_, *found, evidence_, run_), *found, true, run_);
     if (!best || cost < best->cost)
       best = RatedViewpoint{cost, *found};
     return cost < EVEN;
@@ -246,14 +246,6 @@ private:
     return candidates;
   }
 
-  // Only the spreads: towards the viewpoint they fall all the way, while the share of near rays
-  // first rises where outlines begin to overlap.
-  double costByRays (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches,
-                     const RunContext& run, bool with_rows = true) const
-  {
-    return findRaySpread (positions_, patches, viewpoint, with_rows, run);
-  }
-
   // Areas hardly separate far viewpoints: parallel rays are tried first.
   std::optional<Viewpoint> refineWithFar (const Viewpoint& viewpoint) const
   {
@@ -307,7 +299,7 @@ private:
       const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
       const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
       const auto cost = [&] (const Viewpoint& v) {
-        return costByRays (v, patches, run_, with_rows);
+        return findRaySpread (positions_, patches, v, with_rows, run_);
       };
       viewpoint =
           patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
