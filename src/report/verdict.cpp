@@ -152,9 +152,8 @@ measure (const Report& report, const VerdictLimits& limits)
         "more points there, or --max-edge-ratio 8"}},
       flag (has (FindingId::NO_AREA), {"triangles have no area, since points lie on one line",
                                        "remove points from straight edges"}),
-      flag (!report.is_view && has (FindingId::SMALL_HOLES),
-            {"small holes stay open where the sampling may be thin",
-             "--holes close-all closes them"}),
+      flag (has (FindingId::DEEP_HOLES) || (!report.is_view && has (FindingId::SMALL_HOLES)),
+            {"holes stay open where the sampling may be thin", "--holes close-all closes them"}),
       flag (has (FindingId::ONE_SIDED), {"the surface was cut open, since it seems one-sided",
                                          "look at the cut: thin sheets may be joined there"}),
       flag (has (FindingId::GUESSED_OUTSIDE) || has (FindingId::GUESSED_UP) ||

@@ -90,9 +90,11 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   report.findings = {{FindingId::NO_AREA, {}, {2}, {}}};
   expectIn (judge (report).cause, "no area");
   report.findings = {{FindingId::SMALL_HOLES, {}, {1, 10}, {}}};
-  expectIn (judge (report).cause, "small holes");
+  expectIn (judge (report).cause, "holes stay open");
   report.is_view = true; // rays are missing there
   EXPECT_EQ (judge (report).value, Quality::GOOD);
+  report.findings = {{FindingId::DEEP_HOLES, {}, {1, 10}, {}}};
+  expectIn (judge (report).cause, "holes stay open");
   report.findings = {{FindingId::ONE_SIDED, {}, {8}, {}}};
   expectIn (judge (report).cause, "one-sided");
 }
