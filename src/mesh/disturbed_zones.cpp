@@ -78,8 +78,7 @@ public:
   {
   }
 
-  DisturbedZones find (const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
-                       int rings)
+  DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
   {
     is_wrong_.assign (positions_.size (), 0);
     bool is_any = false;
@@ -99,8 +98,6 @@ public:
       return {};
     markDisturbed ();
     markGaps ();
-    for (const Index p : misfits)
-      is_disturbed_[p] = 1;
     for (const std::vector<Index>& loop : loops_)
       for (const Index p : loop)
         zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
@@ -337,11 +334,10 @@ private:
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
-                    int rings, const DisturbanceLimits& limits, const RunContext& run)
+                    const std::vector<CrossingPair>& crossing, int rings,
+                    const DisturbanceLimits& limits, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run)
-      .find (crossing, misfits, rings);
+  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run).find (crossing, rings);
 }
 
 } // namespace pcl::floater

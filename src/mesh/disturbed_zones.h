@@ -46,12 +46,11 @@ struct DisturbedZones
 /// \param crossing  all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
-/// \param misfits   points that are disturbed besides
 /// \param rings     width of a zone around what is disturbed
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, const std::vector<Index>& misfits,
-                    int rings, const DisturbanceLimits& limits, const RunContext& run);
+                    const std::vector<CrossingPair>& crossing, int rings,
+                    const DisturbanceLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -42,28 +42,27 @@ public:
 
   bool isManifold () const { return is_manifold_; }
 
-  /// Points inside that have no single fan, or one that is open but at boundaries that stay.
-  std::vector<Index> misfits (const RunContext& run) const
+  /// Whether each point inside has a single fan, closed but at boundaries that stay.
+  bool fits (const RunContext& run) const
   {
     const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
     const TriangleRanges ranges (mesh_.triangles, place_.positions.size (), run);
     StarOrder order;
-    std::vector<Index> points;
     for (std::size_t r = 0; r < ranges.count (); ++r) {
       const VertexStars stars (mesh_.triangles, ranges, r);
       for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < ranges.lastPoint (r); ++p) {
         const VertexStar star = stars.of (p);
         if (!isInside (p))
           continue;
-        bool fits = star.size () > 0 && order.set (star) && order.isOneFan ();
-        for (std::size_t i = 0; fits && i < star.size (); ++i)
-          fits = (order.before (i) != NONE || (stays (p) && stays (star[i].next))) &&
-                 (order.after (i) != NONE || (stays (p) && stays (star[i].previous)));
-        if (!fits)
-          points.push_back (p);
+        if (star.size () == 0 || !order.set (star) || !order.isOneFan ())
+          return false;
+        for (std::size_t i = 0; i < star.size (); ++i)
+          if ((order.before (i) == NONE && !(stays (p) && stays (star[i].next))) ||
+              (order.after (i) == NONE && !(stays (p) && stays (star[i].previous))))
+            return false;
       }
     }
-    return points;
+    return true;
   }
 
   long twiceHandles () const

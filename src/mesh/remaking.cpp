@@ -46,10 +46,8 @@ public:
   }
 
   // \param is_noise out: whether the zone is noise
-  // \param misfits  out: points where the new triangles do not fit to the others
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise,
-                                 std::vector<Index>& misfits) const
+  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise) const
   {
     is_noise = 1;
     if (looksNoisy (zone))
@@ -63,10 +61,7 @@ public:
       return std::nullopt;
     const PieceInPlace before (place, old, {}, run_),
         after (place, made.triangles, made.is_turned, run_);
-    misfits = after.misfits (run_);
-    for (Index& p : misfits)
-      p = points[p];
-    if (!misfits.empty () || !after.isManifold () ||
+    if (!after.fits (run_) || !after.isManifold () ||
         after.twiceHandles () > before.twiceHandles () || after.islands () > before.islands () ||
         static_cast<double> (after.faults (run_)) >
             limits_.faults_left * static_cast<double> (before.faults (run_)))
@@ -303,13 +298,11 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
              const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
              int widest, RemadeZones& remade, const RemakingLimits& limits, const RunContext& run)
 {
-  std::vector<Index> all_misfits;
   for (int rings = widest; rings > 0; --rings) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                                                     all_misfits, rings, limits.disturbance, run);
+                                                     rings, limits.disturbance, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     std::vector<std::uint8_t> is_noise (made.size (), 0);
-    std::vector<std::vector<Index>> misfits (made.size ());
     if (made.empty ())
       return;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
@@ -319,10 +312,8 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
       is_tried[zone] = hasFailed (zones.points.row (zone), remade.failed) ? 0 : 1;
       if (is_tried[zone] != 0)
-        made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone], misfits[zone]);
+        made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);
     });
-    for (const std::vector<Index>& points : misfits)
-      all_misfits.insert (all_misfits.end (), points.begin (), points.end ());
     TriangleMesh spliced;
     spliced.triangles = ZoneSplicing (mesh, zones, made).splice ();
     std::size_t noisy_points = 0;

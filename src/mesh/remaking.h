@@ -34,8 +34,7 @@ struct RemadeZones
 };
 
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that
-/// came out wrong again, narrower by a ring each time, but wider where the new triangles did not
-/// fit to those around. A zone stays as it was if its new triangles are no manifold with those around,
+/// came out wrong again, narrower by a ring each time. A zone stays as it was if its new triangles are no manifold with those around,
 /// have a handle or a component of their own more, a lid on an opening, or not clearly fewer faults
 /// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it was
 /// tried in vain before, within a tenth as large, or if it is large and some places in it are noise
