@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -145,6 +146,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
                  const std::vector<float>& spacing, const KdTree& tree, const Rows& rows,
                  double least_aspect, const ReachLimits& limits, const RunContext& run)
 {
+  constexpr double ROUNDED_UP = 1.0 + 1e-12;
   const std::size_t n = positions.size ();
   BesideLines beside;
   beside.reach.assign (n, 0.0F);
@@ -152,7 +154,7 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
   lists.offsets.assign (n + 1, 0);
   RangeLists<Index> ranges (rows.size ());
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
+    std::array<std::vector<Neighbor>, 2> found_on; // the sides of the last point on a line
     for (std::size_t i = first; i < last; ++i) {
       const Index p = rows[i];
       const Eigen::Vector3d& here = positions[p];
@@ -164,14 +166,25 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
       Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
       const auto is_beside = [&] (const Neighbor&, const Eigen::Vector3d& position) {
         const Eigen::Vector3d offset = position - here;
-        return (ahead.isZero (0.0) || isInFront (ahead, offset)) &&
-               liesBeside (line, offset, limits);
+        return liesBeside (line, offset, limits) &&
+               (ahead.isZero (0.0) || isInFront (ahead, offset));
       };
       // First on the side of the nearest one, then on the opposite side.
       double smaller = 0.0;
       for (const bool is_first : {true, false}) {
+        std::vector<Neighbor>& found = found_on[is_first ? 0 : 1];
         const double farthest = limits.farthest * static_cast<double> (spacing[p]);
-        tree.nearestIf (here, ahead, farthest, limits.added, is_beside, found);
+        // If all that the last point has found are beside this one, the nearest are no farther.
+        double bound = 0.0;
+        const bool is_bounded =
+            found.size () == limits.added &&
+            std::all_of (found.begin (), found.end (), [&] (const Neighbor& neighbor) {
+              const Eigen::Vector3d& position = positions[neighbor.point];
+              bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
+              return is_beside (neighbor, position);
+            });
+        tree.nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest,
+                        limits.added, is_beside, found);
         tree.looked (here, reachOfSearch (found, limits.added, farthest));
         if (found.empty ()) {
           if (!is_first) // beside the last line
