@@ -3,6 +3,7 @@
 #include "mesh/two_sides.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "core/tetrahedra.h"
 #include "mesh/sides_of_space.h"
 
@@ -33,7 +34,8 @@ class PlaceInSpace
 public:
   PlaceInSpace (const Place& place, const RunContext& run)
       : place_ (place), run_ (run), all_ (delaunayInSpace (place.positions)),
-        sides_ (all_, place.is_free)
+        sides_ (all_, place.is_free), flaws_ (place.positions.size (), NONE),
+        is_reached_ (all_.size ())
   {
   }
 
@@ -52,7 +54,7 @@ public:
     for (Index p = 0; p < place_.positions.size (); ++p)
       if (place_.is_free[p] != 0) {
         ++free;
-        made.flawed += flawsAt (p) > 0 ? 1 : 0;
+        made.flawed += knownFlawsAt (p) > 0 ? 1 : 0;
       }
     if (isNoise (made.flawed, free))
       return made;
@@ -254,45 +256,41 @@ private:
     constexpr std::size_t ENCLOSED = 100;
     const Row around = all_.around.row (p);
     work_ += around.size ();
-    piece_of_.assign (around.size (), NONE);
+    for (const Index t : around)
+      is_reached_[t] = 0;
     std::array<std::size_t, 2> count{}, most{};
     std::vector<std::vector<Index>> found;
-    Index piece = 0;
-    for (std::size_t i = 0; i < around.size (); ++i) {
-      if (piece_of_[i] != NONE)
+    for (const Index start : around) {
+      if (is_reached_[start]++ != 0)
         continue;
-      const std::uint8_t side = is_behind_[around[i]];
-      ++count[side];
-      piece_of_[i] = piece;
-      std::vector<Index> stack{around[i]}, members;
-      while (!stack.empty ()) {
-        const Index t = stack.back ();
-        stack.pop_back ();
-        members.push_back (t);
+      const std::uint8_t side = is_behind_[start];
+      piece_.assign (1, start);
+      for (std::size_t i = 0; i < piece_.size (); ++i)
         for (unsigned k = 0; k < 4; ++k) {
-          const Index other = all_.neighbors[t][k];
-          if (all_.corners[t][k] == p || is_behind_[other] != side)
-            continue;
-          const auto at = static_cast<std::size_t> (
-              std::lower_bound (around.begin (), around.end (), other) - around.begin ());
-          if (piece_of_[at] == NONE) {
-            piece_of_[at] = piece;
-            stack.push_back (other);
-          }
+          const Index t = piece_[i], other = all_.neighbors[t][k];
+          if (all_.corners[t][k] != p && is_behind_[other] == side && is_reached_[other]++ == 0)
+            piece_.push_back (other);
         }
-      }
-      ++piece;
-      most[side] = std::max (most[side], members.size ());
+      ++count[side];
+      most[side] = std::max (most[side], piece_.size ());
       if (pieces != nullptr)
-        found.push_back (std::move (members));
+        found.push_back (piece_);
     }
     if (pieces != nullptr)
-      for (std::vector<Index>& members : found) {
-        const std::uint8_t side = is_behind_[members.front ()];
-        if (count[side] > 1 && (members.size () < most[side] || members.size () < 4))
-          pieces->push_back (std::move (members));
+      for (std::vector<Index>& piece : found) {
+        const std::uint8_t side = is_behind_[piece.front ()];
+        if (count[side] > 1 && (piece.size () < most[side] || piece.size () < 4))
+          pieces->push_back (std::move (piece));
       }
     return count[0] == 0 || count[1] == 0 ? ENCLOSED : count[0] + count[1] - 2;
+  }
+
+  // The same as long as no tetrahedron there is turned.
+  std::size_t knownFlawsAt (Index p)
+  {
+    if (flaws_[p] == NONE)
+      flaws_[p] = static_cast<Index> (flawsAt (p));
+    return flaws_[p];
   }
 
   // Moves tetrahedra, one or a piece around a point, to the other side where the surface is no
@@ -305,7 +303,7 @@ private:
     for (int round = 0; round < MENDING_ROUNDS && has_changed; ++round) {
       has_changed = false;
       for (Index p = 0; p < place_.positions.size () && work_ < most_work_; ++p)
-        if (place_.is_free[p] != 0 && flawsAt (p) > 0)
+        if (place_.is_free[p] != 0 && knownFlawsAt (p) > 0)
           has_changed = mendAt (p) || has_changed;
     }
   }
@@ -317,12 +315,13 @@ private:
     for (const Index t : all_.around.row (p))
       moves.push_back ({t});
     const std::vector<Index>* best = nullptr;
+    std::vector<Index> points, best_points;
     long best_gain = 0;
     double best_cost = 0.0;
     for (const std::vector<Index>& move : moves) {
       if (work_ >= most_work_)
         return false;
-      std::vector<Index> points;
+      points.clear ();
       bool is_allowed = true;
       double cost = 0.0;
       for (const Index t : move) {
@@ -339,27 +338,28 @@ private:
       }
       if (!is_allowed)
         continue;
-      std::sort (points.begin (), points.end ());
-      points.erase (std::unique (points.begin (), points.end ()), points.end ());
-      const auto flaws = [&] {
-        long sum = 0;
-        for (const Index q : points)
-          sum += static_cast<long> (flawsAt (q));
-        return sum;
-      };
-      const long before = flaws ();
+      sortUnique (points);
+      long gain = 0;
+      for (const Index q : points)
+        gain += static_cast<long> (knownFlawsAt (q));
       turn (move);
-      const long gain = before - flaws ();
+      for (const Index q : points)
+        if (gain >= best_gain)
+          gain -= static_cast<long> (flawsAt (q));
       turn (move);
       if (gain > best_gain || (gain == best_gain && best != nullptr && cost < best_cost)) {
         best = &move;
+        best_points = points;
         best_gain = gain;
         best_cost = cost;
       }
     }
-    if (best != nullptr)
-      turn (*best);
-    return best != nullptr;
+    if (best == nullptr)
+      return false;
+    turn (*best);
+    for (const Index q : best_points)
+      flaws_[q] = NONE;
+    return true;
   }
 
   void turn (const std::vector<Index>& tetrahedra)
@@ -382,7 +382,7 @@ private:
       }
     made.is_right = true;
     for (Index p = 0; p < place_.positions.size () && made.is_right; ++p)
-      made.is_right = place_.is_free[p] == 0 || flawsAt (p) == 0;
+      made.is_right = place_.is_free[p] == 0 || knownFlawsAt (p) == 0;
     made.is_turned = std::move (is_turned_);
   }
 
@@ -397,7 +397,9 @@ private:
   std::vector<Index> front_of_patch_;                 // a tetrahedron, NONE if there is none
   std::vector<std::uint8_t> is_behind_;               // of each tetrahedron
   std::vector<std::uint8_t> is_turned_;
-  std::vector<Index> piece_of_;          // scratch
+  std::vector<Index> flaws_;             // of each point: flawsAt (), NONE if not known
+  std::vector<Index> piece_;             // scratch of flawsAt ()
+  std::vector<std::uint8_t> is_reached_; // of each tetrahedron: the same
   std::size_t work_ = 0, most_work_ = 0; // tetrahedra that flawsAt () has looked at, and may
 };
 
