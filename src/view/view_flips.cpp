@@ -169,7 +169,7 @@ private:
       for (const Index t : {e.triangle, other}) {
         normals_[t] = normalOf (mesh_.triangles[t]);
         has_changed_[t] = 1;
-        for (std::uint8_t side = 0; side < 3; ++side)
+        for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
           stack_.push_back ({t, side});
       }
     }
