@@ -83,6 +83,34 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
     std::rethrow_exception (error);
 }
 
+/// Sorts values of a range that all differ, and then those of a whole vector. Merges, so that other
+/// threads and cancellation have their turn. O(n log n).
+template <typename Value, typename IsLess>
+void
+sortInParallel (Value* first, Value* last, const IsLess& isLess, const RunContext& run)
+{
+  constexpr std::ptrdiff_t SORTED_AT_ONCE = 16384;
+  if (last - first <= SORTED_AT_ONCE) {
+    run.poll ();
+    std::sort (first, last, isLess);
+    return;
+  }
+  Value* const middle = first + (last - first) / 2;
+  const int others = run.threads () / 2;
+  const RunContext share = run.withThreads (std::max (1, run.threads () - others));
+  parallelTasks (others > 0 ? run.withThreads (2) : run, 2, [&] (std::size_t half) {
+    sortInParallel (half == 0 ? first : middle, half == 0 ? middle : last, isLess,
+                    half == 0 ? share : run.withThreads (std::max (1, others)));
+  });
+  std::inplace_merge (first, middle, last, isLess);
+}
+template <typename Value, typename IsLess>
+void
+sortInParallel (std::vector<Value>& values, const IsLess& isLess, const RunContext& run)
+{
+  sortInParallel (values.data (), values.data () + values.size (), isLess, run);
+}
+
 /// Length of the ranges of parallelRanges; the last may be shorter. Range r begins at
 /// r * RANGE_LENGTH.
 constexpr std::size_t RANGE_LENGTH = 1024;

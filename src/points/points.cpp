@@ -82,27 +82,6 @@ struct Key
   Index row;
 };
 
-// Sorts keys that all differ. Merges, so that other threads and cancellation have their turn.
-template <typename IsLess>
-void
-sortKeys (Key* first, Key* last, const IsLess& isLess, const RunContext& run)
-{
-  constexpr std::ptrdiff_t SORTED_AT_ONCE = 16384;
-  if (last - first <= SORTED_AT_ONCE) {
-    run.poll ();
-    std::sort (first, last, isLess);
-    return;
-  }
-  Key* const middle = first + (last - first) / 2;
-  const int others = run.threads () / 2;
-  const RunContext share = run.withThreads (std::max (1, run.threads () - others));
-  parallelTasks (others > 0 ? run.withThreads (2) : run, 2, [&] (std::size_t half) {
-    sortKeys (half == 0 ? first : middle, half == 0 ? middle : last, isLess,
-              half == 0 ? share : run.withThreads (std::max (1, others)));
-  });
-  std::inplace_merge (first, middle, last, isLess);
-}
-
 // Takes the finite positions along the Hilbert curve in the frame of the points, then along the curve
 // in each cell, then by coordinates; of equal positions, the smallest cloud index first.
 void
@@ -132,7 +111,7 @@ takeAlongCurve (const std::vector<Eigen::Vector3d>& positions,
       return code_of_a < code_of_b;
     return std::lexicographical_compare (a.begin (), a.end (), b.begin (), b.end ());
   };
-  sortKeys (keys.data (), keys.data () + keys.size (), isLess, run);
+  sortInParallel (keys, isLess, run);
   points.positions.resize (keys.size ());
   points.cloud_index.resize (keys.size ());
   for (std::size_t first = 0; first < positions.size (); first += PART)

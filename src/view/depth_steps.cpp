@@ -183,8 +183,10 @@ private:
         edge.deviation = static_cast<float> (least);
       }
     });
-    std::stable_sort (edges_.begin (), edges_.end (),
-                      [] (const StepEdge& a, const StepEdge& b) { return a.depth < b.depth; });
+    const auto isNearer = [] (const StepEdge& a, const StepEdge& b) {
+      return a.depth != b.depth ? a.depth < b.depth : numberOf (a.edge) < numberOf (b.edge);
+    };
+    sortInParallel (edges_, isNearer, run_);
   }
 
   // Change of the inverse depth for a relative change of depth.

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_method.h"
 
+#include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"
 #include "mesh/trimming.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace pcl::floater {
 namespace {
@@ -17,7 +19,7 @@ inOrder (TriangleMesh mesh, const RunContext& run)
 {
   for (Triangle& t : mesh.triangles)
     std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
-  std::sort (mesh.triangles.begin (), mesh.triangles.end ());
+  sortInParallel (mesh.triangles, std::less<> (), run);
   mesh.connect (mesh.triangle_of.size (), run);
   return mesh;
 }
