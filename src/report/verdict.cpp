@@ -93,7 +93,7 @@ measure (const Report& report, const VerdictLimits& limits)
   const bool has_more = report.check.has_more_self_intersections;
   const double crossing =
       std::max (share (pairs, triangles), has_more ? limits.crossing.poor : 0.0);
-  const double area = report.is_view ? 0.0 : report.check.largest_area_share;
+  const double area = report.check.largest_area_share;
   const double unused = share (report.unused.size (), points);
   const double scatter =
       share (report.scatter.size (), points + static_cast<double> (report.scatter.size ()));
@@ -125,10 +125,13 @@ measure (const Report& report, const VerdictLimits& limits)
        {percent (open) + " of the view is open, at depth steps and where rays are missing",
         "scan from another place as well: what is hidden or seen edge-on from here stays open"}},
       {area,
-       limits.area,
-       {percent (area) + " of the area is in 1 % of the triangles, since far or sparse points are "
-                         "joined to the rest",
-        "cut off triangles with long edges: --max-edge-ratio 8"}},
+       report.is_view ? limits.area_of_view : limits.area,
+       {percent (area) + " of the area is in 1 % of the triangles, " +
+            (report.is_view ? "far from the sensor or seen edge-on"
+                            : "since far or sparse points are joined to the rest"),
+        report.is_view ? "scan from another place as well: what continues there and what is a step "
+                         "is uncertain"
+                       : "cut off triangles with long edges: --max-edge-ratio 8"}},
       {unused,
        limits.unused,
        {percent (unused) + " of the points are in no triangle",

@@ -67,6 +67,9 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "95 % of the area");
   report.is_view = true; // far surfaces have few, large triangles
   report.check.self_intersections = 0;
+  EXPECT_EQ (judge (report).value, Quality::USABLE);
+  expectIn (judge (report).cause, "seen edge-on");
+  report.check.largest_area_share = 0.1;
   EXPECT_EQ (judge (report).value, Quality::GOOD);
   report.check.folds = 700;
   expectIn (judge (report).cause, "700 edges are folded");
