@@ -25,13 +25,12 @@ struct VerdictLimits
   VerdictBounds open = {0.02, 2.0};        ///< share of the triangles of a view that are left open
   VerdictBounds area = {0.25, 0.5}; ///< share of the area in the largest 1 % of the triangles:
                                     ///< 2 % if even, 4 % with noise
-  VerdictBounds area_of_view = {0.25,
-                                2.0};    ///< the same of a view: 14 % in rooms. Of 64 wrong scans,
-                                         ///< 10 were good without this, and 2 are with it
-  VerdictBounds unused = {0.002, 0.1};   ///< share of the points without a triangle
-  VerdictBounds scatter = {0.05, 0.6};   ///< share of the points on no surface
-  VerdictBounds outliers = {0.002, 0.5}; ///< share of the points off any surface
-  VerdictBounds noise = {0.1, 2.0};      ///< share of points projected; never poor by itself
+  /// The same of a view: 14 % in rooms. Of 64 wrong scans 10 were good without this, and 2 are with it.
+  VerdictBounds area_of_view = {0.25, 2.0};
+  VerdictBounds unused = {0.002, 0.1};      ///< share of the points without a triangle
+  VerdictBounds scatter = {0.05, 0.6};      ///< share of the points on no surface
+  VerdictBounds outliers = {0.002, 0.5};    ///< share of the points off any surface
+  VerdictBounds noise = {0.1, 2.0};         ///< share of points projected; never poor by itself
   VerdictBounds long_edges = {0.002, 0.05}; ///< long edges for each triangle
   double coarse_step = 0.2; ///< step of the coordinates, in local spacings, that explains flaws
   double many = 0.02;       ///< share of stacked, noisy or scattered points that explains flaws
