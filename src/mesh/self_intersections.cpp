@@ -90,128 +90,33 @@ edgesOf (const Triangle& t, const Positions& positions)
 }
 
 // Sign of a product of a direction and an edge; 0 if rounding might change it.
-// \param size product of the lengths of the edges that define the direction
+// \param sqr_size squared product of the lengths of the edges that define the direction
 int
-sideOf (const Eigen::Vector3d& direction, double size, const Eigen::Vector3d& edge)
+sideOf (const Eigen::Vector3d& direction, double sqr_size, const Eigen::Vector3d& edge)
 {
   const double product = direction.dot (edge);
-  if (!(product * product > ROUNDING * ROUNDING * size * size * edge.squaredNorm ()))
+  if (!(product * product > ROUNDING * ROUNDING * sqr_size * edge.squaredNorm ()))
     return 0;
   return product > 0.0 ? 1 : -1;
 }
 
-// The side of a point, at this offset from the corner, at the plane of a triangle; 0 if rounding
-// might change it.
-int
-sideOfPlane (const Edges& edges, const Eigen::Vector3d& offset)
-{
-  return sideOf (edges[0].cross (edges[1]), edges[0].norm () * edges[1].norm (), offset);
-}
-
-// Whether two triangles with a common first corner certainly share only this, since the plane of one
-// of them, or one through its edges at the corner and across it, has the other one on one side.
+// Whether two triangles with a common first corner, and perhaps the second one, certainly share no
+// more, since the plane of one of them, or one through its edges at the corner and across it, has
+// the other one on one side.
 bool
-isBeside (const Edges& own, const Edges& other)
+isBeside (const Edges& own, const Edges& other, int common)
 {
-  const int side = sideOfPlane (own, other[0]);
-  if (side != 0 && side == sideOfPlane (own, other[1]))
-    return true;
-  const double a = own[0].norm (), b = own[1].norm ();
+  const double sqr_a = own[0].squaredNorm (), sqr_b = own[1].squaredNorm ();
   const Eigen::Vector3d normal = own[0].cross (own[1]);
-  const auto areOut = [&other] (const Eigen::Vector3d& inwards, double size) {
-    return sideOf (inwards, size, other[0]) < 0 && sideOf (inwards, size, other[1]) < 0;
+  const int side = sideOf (normal, sqr_a * sqr_b, other[1]);
+  if (common == 2 || (side != 0 && side == sideOf (normal, sqr_a * sqr_b, other[0])))
+    return side != 0;
+  const auto areOut = [&other] (const Eigen::Vector3d& inwards, double sqr_size) {
+    return sideOf (inwards, sqr_size, other[0]) < 0 && sideOf (inwards, sqr_size, other[1]) < 0;
   };
-  return areOut (normal.cross (own[0]), a * a * b) || areOut (own[1].cross (normal), a * b * b);
+  return areOut (normal.cross (own[0]), sqr_a * sqr_a * sqr_b) ||
+         areOut (own[1].cross (normal), sqr_a * sqr_b * sqr_b);
 }
-
-// Cost of exact predicates, in tests with floating-point filters. Measured on a grid of points in a
-// plane: 15 microseconds instead of 5.
-std::size_t
-costOfExactTest (const Corners& corners, const Positions& positions)
-{
-  constexpr std::size_t BY_EXACT_NUMBERS = 3;
-  const auto isNear = [&positions] (const Triangle& t, Index p) {
-    return sideOfPlane (edgesOf (t, positions), positions[p] - positions[t[0]]) == 0;
-  };
-  for (auto i = static_cast<std::size_t> (corners.common); i < 3; ++i)
-    if (isNear (corners.one, corners.other[i]) || isNear (corners.other, corners.one[i]))
-      return BY_EXACT_NUMBERS;
-  return 1;
-}
-
-// Tests whether the fan around a point is flat: in some direction of view, its triangles do not
-// overlap. Then no two of them share more than the point and their edges.
-class PlainFans
-{
-public:
-  explicit PlainFans (const Positions& positions) : positions_ (positions) {}
-
-  bool isPlain (Index p, const VertexStar& around)
-  {
-    sectors_.clear ();
-    Eigen::Vector3d direction = Eigen::Vector3d::Zero (), even = direction;
-    for (const Wedge& wedge : around) {
-      sectors_.push_back ({wedge.next, wedge.previous, positions_[wedge.next] - positions_[p],
-                           positions_[wedge.previous] - positions_[p], Eigen::Vector3d::Zero ()});
-      Sector& sector = sectors_.back ();
-      sector.area = sector.begin.cross (sector.end);
-      direction += sector.area;
-    }
-    if (areSideBySide (direction))
-      return true;
-    for (const Sector& sector : sectors_)
-      even += sector.area.stableNormalized ();
-    return areSideBySide (even);
-  }
-
-private:
-  struct Sector
-  {
-    Index from, to;
-    Eigen::Vector3d begin, end, area;
-  };
-
-  // Seen against the direction, each sector turns left, and all together go round at most once: the
-  // first spoke is only in sectors that begin or end with it.
-  bool areSideBySide (const Eigen::Vector3d& direction) const
-  {
-    const double sqr_direction = direction.squaredNorm ();
-    for (const Sector& sector : sectors_)
-      if (!isPositive (sector.area.dot (direction), sector.begin, sector.end, sqr_direction))
-        return false;
-    const Sector& first = firstSector ();
-    for (const Sector& sector : sectors_) {
-      if (sector.from == first.from || sector.to == first.from)
-        continue;
-      const Eigen::Vector3d across = direction.cross (first.begin); // to the left of the spoke
-      if (!isPositive (across.dot (sector.begin), first.begin, sector.begin, sqr_direction) &&
-          !isPositive (-across.dot (sector.end), first.begin, sector.end, sqr_direction))
-        return false;
-    }
-    return true;
-  }
-
-  // The first sector of an open fan; in a closed one, any.
-  const Sector& firstSector () const
-  {
-    for (const Sector& sector : sectors_)
-      if (std::none_of (sectors_.begin (), sectors_.end (),
-                        [&sector] (const Sector& other) { return other.to == sector.from; }))
-        return sector;
-    return sectors_.front ();
-  }
-
-  // Whether a product of three vectors is certainly above zero.
-  static bool isPositive (double product, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                          double sqr_c)
-  {
-    return product > 0.0 &&
-           product * product > ROUNDING * ROUNDING * a.squaredNorm () * b.squaredNorm () * sqr_c;
-  }
-
-  const Positions& positions_;
-  std::vector<Sector> sectors_;
-};
 
 } // namespace
 
@@ -224,12 +129,11 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
     return false;
   if (corners.common == 1 || corners.common == 2) {
     const Edges own = edgesOf (corners.one, positions), others = edgesOf (corners.other, positions);
-    if (corners.common == 1 ? isBeside (own, others) || isBeside (others, own)
-                            : sideOfPlane (own, others[1]) != 0)
+    if (isBeside (own, others, corners.common) || isBeside (others, own, corners.common))
       return false;
   }
   if (exact_tests != nullptr)
-    *exact_tests += costOfExactTest (corners, positions);
+    ++*exact_tests;
   const auto at = [&positions] (const Triangle& t) {
     return std::array<Eigen::Vector3d, 3>{positions[t[0]], positions[t[1]], positions[t[2]]};
   };
@@ -252,30 +156,11 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
 {
   if (triangles.empty ())
     return {};
-  std::vector<std::uint8_t> is_plain (positions.size ()); // see PlainFans
-  const TriangleRanges ranges (triangles, positions.size (), run);
-  parallelTasks (run, ranges.count (), [&] (std::size_t r) {
-    const VertexStars stars (triangles, ranges, r);
-    PlainFans fans (positions);
-    for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r); ++p)
-      if (const VertexStar star = stars.of (p); star.size () > 0)
-        is_plain[p] = fans.isPlain (static_cast<Index> (p), star) ? 1 : 0;
-  });
   const PairSearchLimits limits;
   const std::vector<Index> order = orderByPoints (triangles, positions.size ());
   const BoxTree tree (
       triangles.size (), [&] (std::size_t i) { return boxOf (triangles[order[i]], positions); },
       run);
-  // \param[in,out] work see PairSearchLimits
-  const auto isCrossing = [&] (const Triangle& one, const Triangle& other, std::size_t& work) {
-    for (const Index p : one)
-      if (is_plain[p] != 0 && (p == other[0] || p == other[1] || p == other[2]))
-        return false;
-    std::size_t exact_tests = 0;
-    const bool is_crossing = doCross (one, other, positions, &exact_tests);
-    work += limits.test + exact_tests * limits.exact_test;
-    return is_crossing;
-  };
   constexpr std::size_t LEAVES_AT_ONCE = 8; // consecutive leaves, with mostly the same near boxes
   std::vector<CrossingPairs> found ((tree.leaves () + RANGE_LENGTH - 1) / RANGE_LENGTH);
   parallelRanges (run, tree.leaves (), [&] (std::size_t first, std::size_t last) {
@@ -287,8 +172,12 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
       if (work < most)
         tree.forOverlaps (begin, end, [&] (std::size_t i, std::size_t j) {
           const auto [t, u] = std::minmax (order[i], order[j]);
-          if (work++ < most && isCrossing (triangles[t], triangles[u], work))
+          if (work >= most)
+            return;
+          std::size_t exact_tests = 0;
+          if (doCross (triangles[t], triangles[u], positions, &exact_tests))
             pairs.push_back ({t, u});
+          work += limits.test + exact_tests * limits.exact_test;
         });
       if (work >= most)
         for (std::size_t i = begin * BoxTree::LEAF_SIZE;

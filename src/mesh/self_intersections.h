@@ -38,8 +38,8 @@ struct CrossingPairs : std::vector<CrossingPair>
 /// may overlap a large share of all others.
 struct PairSearchLimits
 {
-  /// Work on consecutive triangles, for each of them. One unit is a pair of overlapping boxes that
-  /// is settled by its corner: some 5 nanoseconds, so that a triangle may take 40 microseconds.
+  /// Work on consecutive triangles, for each of them. One unit is some 5 nanoseconds, so that a
+  /// triangle may take 40 microseconds; three times as long if many tests need exact numbers.
   std::size_t work = 8000;
   std::size_t test = 30, exact_test = 500; ///< work of the tests of a pair. Measured
 };
@@ -47,10 +47,8 @@ struct PairSearchLimits
 /// All pairs of triangles whose intersection is more than their common corners or edge. Exact for
 /// the given positions. Degenerate triangles are ignored.
 ///
-/// Most pairs share a corner. They are all settled at once where the fan around the corner is flat:
-/// its projection in some direction has no overlaps. At other corners, pairs are tested one by one.
-/// Pairs without a common corner are found by a tree of boxes, and tested exactly if double
-/// precision finds no separating plane.
+/// Pairs are found by a tree of boxes, and tested exactly if double precision finds no plane that
+/// separates them.
 ///
 /// O(n log n) for a mesh with few self-intersections: about a microsecond per point by one thread.
 /// At most 40 microseconds per triangle, see PairSearchLimits; then there are more pairs.
@@ -71,8 +69,7 @@ boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
 
 /// Whether two triangles share more than their common corners. Exact. False if one of them is
 /// degenerate.
-/// \param exact_tests counts the tests by exact predicates, which take ten times as long; tests
-///     that need exact numbers count three times
+/// \param exact_tests counts the tests by exact predicates, which take ten times as long
 bool
 doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions,
          std::size_t* exact_tests = nullptr);
