@@ -164,6 +164,12 @@ private:
   static constexpr float NONE_YET = std::numeric_limits<float>::infinity ();
   using Floats = std::array<float, LANES>;
 
+  // Without a branch.
+  static bool bothHold (bool one, bool other)
+  {
+    return (static_cast<int> (one) & static_cast<int> (other)) != 0;
+  }
+
   PCL_FLOATER_WIDE void judge (std::uint32_t first, std::uint32_t size, bool with_across)
   {
     Floats px, py, pz, d1, d2, dx, dy, dz;
@@ -179,7 +185,7 @@ private:
       for (std::uint32_t k = 0; k < LANES; ++k) {
         const float u = x[i] - px[k], v = y[i] - py[k], w = z[i] - pz[k];
         const float sum = u * u + v * v + w * w;
-        const float square = (i != own[k]) & (sum < NONE_YET) ? sum : NONE_YET;
+        const float square = bothHold (i != own[k], sum < NONE_YET) ? sum : NONE_YET;
         const float one = d1[k], two = d2[k];
         const std::uint32_t at_one = best[k];
         // No choice of integers by floats, which would stay scalar.
@@ -206,8 +212,9 @@ private:
         const float u = x[i] - px[k], v = y[i] - py[k], w = z[i] - pz[k];
         const float square = u * u + v * v + w * w;
         const float part = u * dx[k] + v * dy[k] + w * dz[k];
-        const bool is_across = (i != best[k]) & (square > 0.0F) & (part * part <= d1[k] * square);
-        d2[k] = is_across & (square < d2[k]) ? square : d2[k];
+        const bool is_across =
+            bothHold (bothHold (i != best[k], square > 0.0F), part * part <= d1[k] * square);
+        d2[k] = bothHold (is_across, square < d2[k]) ? square : d2[k];
       }
     for (std::uint32_t k = 0; k < LANES; ++k)
       across[own[k]] = d2[k] < NONE_YET ? std::sqrt (d2[k]) : 0.0F;
