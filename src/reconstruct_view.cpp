@@ -94,7 +94,7 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   ViewSurface surface = makeViewSurface (points, viewpoint, {options, limits.view, limits.surface},
                                          facingHints (points, request), request.run);
   LocalGeometry geometry;
-  geometry.spacing = spacingOfMesh (surface.mesh, points.positions, request.run);
+  geometry.spacing = std::move (surface.spacing);
   MeshExamination found = examine (surface.mesh, points, geometry, request);
   const double most_unused = (viewpoint.is_only_told ? limits.view.largest_unused_if_told
                                                      : limits.view.largest_unused_share) *

@@ -3,6 +3,7 @@
 #include "mesh/trimming.h"
 
 #include "core/csr_lists.h"
+#include "core/parallel.h"
 #include "mesh/self_intersections.h"
 
 #include <algorithm>
@@ -139,14 +140,13 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
               const TrimmingOptions& options, const RunContext& run)
 {
   std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
-  ProgressLoop progress (run);
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    progress.next ();
-    const Triangle& triangle = mesh.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i)
-      if (isTooLong (triangle[i], triangle[(i + 1) % 3], points, spacing, options))
-        is_removed[t] = 1;
-  }
+  parallelRanges (run, is_removed.size (), [&] (std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (isTooLong (mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3], points, spacing,
+                       options))
+          is_removed[t] = 1;
+  });
   removeTriangles (mesh, std::move (is_removed), run);
 }
 

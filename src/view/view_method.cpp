@@ -26,10 +26,9 @@ inOrder (TriangleMesh mesh, const RunContext& run)
 
 // Fills the loops that the policy does not keep. All loops are at a gap or a depth step.
 std::size_t
-closeHoles (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
-            const ViewSettings& settings, const RunContext& run)
+closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
+            const Viewpoint& viewpoint, const ViewSettings& settings, const RunContext& run)
 {
-  const std::vector<float> spacing = spacingOfMesh (mesh, points.positions, run);
   const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, points.positions, spacing, run);
@@ -167,14 +166,18 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
       surface.is_at_step[p] = 1;
   }
   removeTriangles (mesh, std::move (is_left_out), run);
-  if (settings.options.remove_outliers)
-    removeSmallComponents (mesh, settings.limits.smallest_part, run);
 
   run.beginStage (Stage::FLIPS);
   if (settings.options.flip_edges)
     surface.finish.flips = flipInView (mesh, rays, points.positions, settings.limits.flips, run);
+  surface.spacing = spacingOfMesh (mesh, points.positions, run);
+  TrimmingOptions bridges;
+  bridges.maximum_edge_ratio = settings.limits.longest_edge;
+  surface.steps += trimMesh (mesh, points, surface.spacing, bridges, run).triangles;
+  if (settings.options.remove_outliers)
+    removeSmallComponents (mesh, settings.limits.smallest_part, run);
   if (settings.options.holes.policy != HolePolicy::AUTO)
-    surface.holes_filled = closeHoles (mesh, points, viewpoint, settings, run);
+    surface.holes_filled = closeHoles (mesh, points, surface.spacing, viewpoint, settings, run);
   surface.finish.facing =
       faceInView (mesh, points, viewpoint, settings.surface.finish, std::move (hints), run);
   return surface;

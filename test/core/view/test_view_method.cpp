@@ -3,6 +3,7 @@
 // Scans of known surfaces, made into meshes as they were seen.
 #include "view/view_method.h"
 
+#include "reconstruct.h"
 #include "scan_samples.h"
 
 #include <gtest/gtest.h>
@@ -77,6 +78,29 @@ TEST (ViewMethod, DepthStepsAreLeftOut)
     const Scan scan = samples::scanScene (raster, {0.005, 0.0}, 3);
     viewOf (scan, seenFrom (scan.viewpoint));
   }
+}
+
+// Edges across short steps, which are not left out, bridge what is no surface; the longest go.
+TEST (ViewMethod, LongBridgesAreLeftOut)
+{
+  const Scan scan = samples::scanScene (Raster::CAMERA, {0.001, 0.0}, 1);
+  Limits limits;
+  limits.view.shortest_step = scan.points.size ();
+  const auto longAcross = [&] {
+    const Result result =
+        reconstruct (samples::asInput (scan.points), seenFrom (scan.viewpoint), limits);
+    EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    std::size_t count = 0;
+    for (const Triangle& t : result.triangles) {
+      Result one;
+      one.triangles = {t};
+      count += longestAcross (scan, one, 0.006) > 60.0 ? 1 : 0;
+    }
+    return count;
+  };
+  const std::size_t left = longAcross ();
+  limits.view.longest_edge = 1e9;
+  EXPECT_LT (2 * left, longAcross ());
 }
 
 // Where curves of a rosette cross, rays nearly coincide, and some points are alone in gaps between
