@@ -323,12 +323,12 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
   const bool is_ok = report.status == RunStatus::SUCCESS && !figures.is_refused;
   const bool has_mesh = isStandardStream (line.output); // the standard output takes nothing else
   std::FILE* const to = has_mesh ? stderr : stdout;
-  if (!is_ok)
+  if (figures.is_refused || !line.quiet)
+    printWarnings (report, line.verbose || figures.is_refused);
+  if (!is_ok) // the warnings may tell why
     std::fprintf (stderr, "%s: cannot reconstruct %s: %s (%s)\n", line.program,
                   printable (inputName (line.input)).c_str (), printable (report.message).c_str (),
                   outcomeName (report, figures).c_str ());
-  if (figures.is_refused || !line.quiet)
-    printWarnings (report, line.verbose || figures.is_refused);
   if (is_ok && !line.quiet)
     printSummary (to, line, report, figures);
   if (line.json)
