@@ -198,7 +198,7 @@ largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
     areas.push_back (
         static_cast<float> (areaVector (positions[a], positions[b], positions[c]).norm ()));
   const double all = std::accumulate (areas.begin (), areas.end (), 0.0);
-  const auto largest = std::min (areas.size (), std::max<std::size_t> (1, areas.size () / 100));
+  const std::size_t largest = areas.size () / 100;
   std::nth_element (areas.begin (), areas.begin () + static_cast<std::ptrdiff_t> (largest),
                     areas.end (), std::greater<> ());
   const double of_largest =

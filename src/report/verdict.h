@@ -41,8 +41,8 @@ struct VerdictLimits
 Verdict
 judge (const Report& report, const VerdictLimits& limits = {});
 
-/// Share of the total area that the largest 1 % of the triangles have, at least one triangle; 0 if
-/// there is no area. O(n).
+/// Share of the total area that the largest 1 % of the triangles have; 0 if there is no area, or if
+/// there are fewer than 100 triangles, of which one may rightly have a large share. O(n).
 double
 largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
                   const std::vector<Eigen::Vector3d>& positions);

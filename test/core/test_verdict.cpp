@@ -113,6 +113,8 @@ TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)
   }
   EXPECT_NEAR (largestAreaShare (triangles, positions), 200.0 / 398.0, 1e-6);
   EXPECT_EQ (largestAreaShare ({}, {}), 0.0);
+  triangles.resize (99); // with one of the large ones, which few triangles may have
+  EXPECT_EQ (largestAreaShare (triangles, positions), 0.0);
 }
 
 TEST (Verdict, OfGeneratedClouds)

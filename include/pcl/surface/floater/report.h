@@ -204,8 +204,8 @@ struct MeshCheck
   std::vector<std::array<std::uint32_t, 2>>
       self_intersections_at;       ///< the first ten of them, each by a point of
                                    ///< either triangle
-  double largest_area_share = 0.0; ///< share of the area in the largest 1 % of the triangles; 0 if
-                                   ///< the mesh was made in parts
+  double largest_area_share = 0.0; ///< share of the area in the largest 1 % of the triangles; 0 of
+                                   ///< fewer than 100, or if the mesh was made in parts
   double longest_edge = 0.0;       ///< in local spacings
   std::array<std::uint32_t, 2> longest_edge_at{}; ///< end points of that edge, as cloud indices
   std::vector<LoopSummary> loops;                 ///< longest first
