@@ -83,8 +83,8 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
     std::rethrow_exception (error);
 }
 
-/// Sorts values of a range that all differ, and then those of a whole vector. Merges, so that other
-/// threads and cancellation have their turn. O(n log n).
+/// Sorts values that all differ: halves on the threads of the run, which are merged. Polls for
+/// cancellation. O(n log n).
 template <typename Value, typename IsLess>
 void
 sortInParallel (Value* first, Value* last, const IsLess& isLess, const RunContext& run)

@@ -5,6 +5,8 @@
 
 #include "samples.h"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 
 namespace pcl::floater::samples {
@@ -227,6 +229,26 @@ scanYard (DepthNoise noise, std::uint64_t seed)
   scan.viewpoint = {between (-2.0, 2.0), between (-2.0, 2.0), between (1.2, 2.6)};
   castRays (yard, raysInRings (scan.viewpoint, 32, 1800, -25.0, 35.0 / 31.0), noise, random, scan);
   return scan;
+}
+
+/// The mesh of a scan as its sensor saw it, which faces the sensor.
+inline Result
+viewOf (const Scan& scan, const Options& options)
+{
+  Result result = reconstruct (scan.points, options);
+  EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+  EXPECT_TRUE (result.report.is_view);
+  EXPECT_EQ (result.report.is_far_view, scan.is_far);
+  std::size_t turned = 0;
+  for (const auto& [a, b, c] : result.triangles)
+    turned += areaVector (scan.points[a], scan.points[b], scan.points[c])
+                          .dot (scan.viewpoint - scan.points[a]) < 0.0
+                  ? 1
+                  : 0;
+  if (options.view.use == ViewUse::GIVEN) {
+    EXPECT_EQ (turned, 0U);
+  }
+  return result;
 }
 
 } // namespace pcl::floater::samples
