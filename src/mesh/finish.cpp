@@ -54,6 +54,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       openBoundaryFolds (mesh, positions, run);
   }
   if (settings.repair && finish.is_repairable) {
+    finish.handles_cut = cutHandles (mesh, positions, geometry, settings.limits.handles, run);
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     finish.pairs_found = finish.crossing->size ();
     const auto remake = [&] (int widest) {

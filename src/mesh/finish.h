@@ -6,6 +6,7 @@
 #include "local/local_geometry.h"
 #include "mesh/facing.h"
 #include "mesh/flaw_repair.h"
+#include "mesh/handle_cutting.h"
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
@@ -23,6 +24,7 @@ struct FinishLimits
   CostLimits cost;
   RepairLimits repair;
   NotchLimits notches;
+  HandleLimits handles;
   RemakingLimits remaking;
   FacingLimits facing;
 };
@@ -48,6 +50,7 @@ struct MeshFinish
   std::size_t flips = 0;
   std::size_t folds = 0;       ///< folded edges after the flips, before the repair
   bool is_repairable = true;   ///< false: more folds than FinishSettings::largest_fold_share
+  std::size_t handles_cut = 0; ///< handles that the points do not support
   std::size_t pairs_found = 0; ///< crossing pairs before any was removed
   Repairs repairs;
   RemadeZones remade;                    ///< made anew in space

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/handle_cutting.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
+#include "mesh/handle_loops.h"
+#include "mesh/insertion.h"
+#include "mesh/self_intersections.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+constexpr int RINGS = 3; // around a loop: two that go or are changed by flips, and one that stays
+
+// Triangles of a mesh that go, and those that come.
+struct Replacement
+{
+  std::vector<Index> gone;
+  std::vector<Triangle> triangles;
+};
+
+// The mesh around a loop, with points numbered from 0.
+class LoopCut
+{
+public:
+  LoopCut (const TriangleMesh& mesh, const std::vector<Index>& loop,
+           const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
+           const HandleLimits& limits, const RunContext& run)
+      : mesh_ (mesh), limits_ (limits), run_ (run), points_ (loop),
+        cost_ (positions_, normals_, &spacing_, limits.cost)
+  {
+    for (int ring = 0; ring < RINGS; ++ring)
+      addRing (mesh, points_);
+    is_on_loop_.assign (points_.size (), 0);
+    is_rim_.assign (points_.size (), 0);
+    for (const Index p : loop) {
+      loop_.push_back (numberOf (p));
+      is_on_loop_[loop_.back ()] = 1;
+    }
+    std::vector<Index> fan;
+    for (Index i = 0; i < points_.size (); ++i) {
+      positions_.push_back (positions[points_[i]]);
+      normals_.push_back (geometry.stars.normals[points_[i]]);
+      spacing_.push_back (geometry.meshSpacing ()[points_[i]]);
+      mesh.fan (points_[i], fan);
+      for (const Index t : fan) {
+        const Triangle& c = mesh.triangles[t];
+        const Triangle corners{numberOf (c[0]), numberOf (c[1]), numberOf (c[2])};
+        if (*std::max_element (corners.begin (), corners.end ()) == NONE)
+          is_rim_[i] = 1;
+        else if (*std::min_element (corners.begin (), corners.end ()) == i) {
+          triangles_.push_back (t);
+          before_.triangles.push_back (corners);
+        }
+      }
+    }
+    neighbors_ = makeCsrLists (points_.size (), [&] (const auto& emit) {
+      for (std::size_t i = 0; i < points_.size (); ++i)
+        for (const Index q : geometry.neighbors.row (points_[i]))
+          if (const Index j = numberOf (q); j != NONE)
+            emit (i, j);
+    });
+  }
+
+  // The cheapest cut; nothing if the loop stays.
+  Replacement cut ()
+  {
+    Replacement best;
+    if (!before_.connect (points_.size (), run_, &is_rim_) || !markSides ())
+      return best;
+    double least = limits_.cost_left * costOf (before_);
+    const std::multiset<Edge> rim = rimEdges (before_);
+    for (const std::uint8_t sides : {BOTH, LEFT, RIGHT}) {
+      TriangleMesh after;
+      if (!takeOut (sides, after.triangles) || !after.connect (points_.size (), run_, &is_rim_))
+        continue;
+      insertMissingPoints (after, neighbors_, cost_, true, run_);
+      if (std::count (after.triangle_of.begin (), after.triangle_of.end (), NONE) > 0 ||
+          rimEdges (after) != rim)
+        continue;
+      if (const double cost = costOf (after); cost < least) {
+        least = cost;
+        best = {triangles_, std::move (after.triangles)};
+      }
+    }
+    for (Triangle& t : best.triangles)
+      t = {points_[t[0]], points_[t[1]], points_[t[2]]};
+    return best;
+  }
+
+private:
+  using Edge = std::pair<Index, Index>;
+  static constexpr std::uint8_t LEFT = 1, RIGHT = 2, BOTH = LEFT | RIGHT; // of the loop
+
+  Index numberOf (Index p) const
+  {
+    const auto at = std::lower_bound (points_.begin (), points_.end (), p);
+    return at != points_.end () && *at == p ? static_cast<Index> (at - points_.begin ()) : NONE;
+  }
+
+  bool isOnLoop (Index p) const { return is_on_loop_[p] != 0; }
+
+  // Marks the triangles at the loop as left or right of it.
+  // \return false if some are both
+  bool markSides ()
+  {
+    side_.assign (before_.triangles.size (), 0);
+    std::set<Edge> along;
+    for (std::size_t i = 0; i < loop_.size (); ++i)
+      along.emplace (loop_[i], loop_[i + 1 < loop_.size () ? i + 1 : 0]);
+    std::vector<Index> found;
+    for (Index t = 0; t < before_.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index p = before_.from ({t, side}), q = before_.to ({t, side});
+        if (along.count ({p, q}) + along.count ({q, p}) > 0) {
+          side_[t] = side_[t] | (along.count ({p, q}) > 0 ? LEFT : RIGHT);
+          found.push_back (t);
+        }
+      }
+    for (std::size_t i = 0; i < found.size (); ++i)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const MeshEdge e{found[i], side};
+        const Index p = before_.from (e), q = before_.to (e),
+                    t = before_.neighbors[e.triangle][side];
+        if (t != NONE && side_[t] == 0 && (isOnLoop (p) || isOnLoop (q)) &&
+            along.count ({p, q}) + along.count ({q, p}) == 0) {
+          side_[t] = side_[found[i]];
+          found.push_back (t);
+        }
+      }
+    return std::count (side_.begin (), side_.end (), BOTH) == 0;
+  }
+
+  // Takes the triangles at the loop on some sides out, and fills the two openings.
+  bool takeOut (std::uint8_t sides, std::vector<Triangle>& triangles) const
+  {
+    std::set<Edge> gone;
+    for (Index t = 0; t < before_.triangles.size (); ++t) {
+      const Triangle& c = before_.triangles[t];
+      if ((side_[t] & sides) == 0)
+        triangles.push_back (c);
+      else
+        for (std::size_t i = 0; i < 3; ++i)
+          gone.emplace (c[i], c[(i + 1) % 3]);
+    }
+    std::map<Index, Index> around;
+    for (const auto& [p, q] : gone)
+      if (gone.count ({q, p}) == 0 && !around.emplace (p, q).second)
+        return false; // openings with a common point
+    std::size_t openings = 0;
+    for (; !around.empty (); ++openings) {
+      std::vector<Index> opening;
+      for (auto at = around.begin (); at != around.end (); at = around.find (opening.back ())) {
+        opening.push_back (at->second);
+        around.erase (at);
+      }
+      const std::vector<Triangle> filling = fill (opening);
+      if (filling.empty ())
+        return false;
+      triangles.insert (triangles.end (), filling.begin (), filling.end ());
+    }
+    return openings == 2;
+  }
+
+  std::vector<Triangle> fill (const std::vector<Index>& opening) const
+  {
+    double length = 0.0;
+    for (std::size_t i = 0; i < opening.size (); ++i)
+      length += (positions_[opening[i]] - positions_[opening[i > 0 ? i - 1 : opening.size () - 1]])
+                    .norm ();
+    const double step = length / static_cast<double> (opening.size ());
+    return PolygonFilling (run_).fill (
+        opening,
+        [&] (Index p, Index q, Index r) {
+          return cost_ (p, q, r) +
+                 limits_.area_cost / (step * step) *
+                     areaVector (positions_[p], positions_[q], positions_[r]).norm ();
+        },
+        [this] (Index p, Index q) { return !mesh_.hasEdge (points_[p], points_[q]); });
+  }
+
+  // Edges between points on the rim, which the mesh outside may have as well.
+  std::multiset<Edge> rimEdges (const TriangleMesh& mesh) const
+  {
+    std::multiset<Edge> edges;
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (const Index p = t[i], q = t[(i + 1) % 3]; is_rim_[p] != 0 && is_rim_[q] != 0)
+          edges.emplace (p, q);
+    return edges;
+  }
+
+  double costOf (const TriangleMesh& mesh) const
+  {
+    const auto value = [&] (Index t) {
+      return cost_.value (mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]);
+    };
+    const std::size_t pairs = findSelfIntersections (mesh.triangles, positions_, run_).size ();
+    double sum = limits_.pair_cost * static_cast<double> (pairs);
+    for (Index t = 0; t < mesh.triangles.size (); ++t) {
+      const TriangleCost::Value own = value (t);
+      sum += own.cost;
+      for (const Index u : mesh.neighbors[t])
+        if (u < t) // NONE is above
+          sum += cost_.ofEdge (own.unit_normal, value (u).unit_normal);
+    }
+    return sum;
+  }
+
+  const TriangleMesh& mesh_;
+  const HandleLimits& limits_;
+  const RunContext run_;
+  std::vector<Index> points_, triangles_; // of the mesh
+  std::vector<Index> loop_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<Eigen::Vector3f> normals_;
+  std::vector<float> spacing_;
+  CsrLists neighbors_;
+  TriangleCost cost_;
+  TriangleMesh before_;
+  std::vector<std::uint8_t> side_;       // of each triangle before: its sides of the loop
+  std::vector<std::uint8_t> is_on_loop_; // of each point
+  std::vector<std::uint8_t> is_rim_;     // of each point: some of its triangles are not here
+};
+
+} // namespace
+
+std::size_t
+cutHandles (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const LocalGeometry& geometry, const HandleLimits& limits, const RunContext& run)
+{
+  std::size_t cuts = 0;
+  std::set<std::vector<Index>> tried;
+  while (true) {
+    std::vector<std::vector<Index>> loops = findHandleLoops (mesh, limits.longest_loop, run);
+    loops.erase (std::remove_if (loops.begin (), loops.end (),
+                                 [&] (const auto& loop) { return !tried.insert (loop).second; }),
+                 loops.end ());
+    std::vector<Replacement> made (loops.size ());
+    parallelTasks (run, loops.size (), [&] (std::size_t i) {
+      made[i] = LoopCut (mesh, loops[i], positions, geometry, limits, run.withThreads (1)).cut ();
+    });
+    std::vector<std::uint8_t> is_gone (loops.empty () ? 0 : mesh.triangles.size (), 0);
+    TriangleMesh changed;
+    for (std::size_t i = 0; i < loops.size (); ++i) {
+      const Replacement& cut = made[i];
+      if (std::any_of (cut.gone.begin (), cut.gone.end (),
+                       [&] (Index t) { return is_gone[t] != 0; })) {
+        tried.erase (loops[i]); // the next round tries it again
+        continue;
+      }
+      for (const Index t : cut.gone)
+        is_gone[t] = 1;
+      changed.triangles.insert (changed.triangles.end (), cut.triangles.begin (),
+                                cut.triangles.end ());
+      cuts += cut.gone.empty () ? 0 : 1;
+    }
+    if (changed.triangles.empty ())
+      return cuts;
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      if (is_gone[t] == 0)
+        changed.triangles.push_back (mesh.triangles[t]);
+    if (!changed.connect (positions.size (), run))
+      throw std::logic_error ("a handle was cut so that the mesh does not fit");
+    mesh = std::move (changed);
+  }
+}
+
+} // namespace pcl::floater

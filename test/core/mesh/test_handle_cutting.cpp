@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loops around handles, and handles that are cut.
+#include "mesh/handle_cutting.h"
+
+#include "mesh/handle_loops.h"
+#include "mesh/known_meshes.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl::floater {
+namespace {
+using samples::Mesh;
+
+std::vector<std::size_t>
+lengthsOfLoops (const Mesh& mesh, std::size_t longest)
+{
+  const TriangleMesh connected = samples::connected (mesh);
+  std::vector<std::size_t> lengths;
+  for (const std::vector<Index>& loop : findHandleLoops (connected, longest, 1)) {
+    lengths.push_back (loop.size ());
+    for (std::size_t i = 0; i < loop.size (); ++i)
+      EXPECT_TRUE (connected.hasEdge (loop[i], loop[(i + 1) % loop.size ()]));
+  }
+  return lengths;
+}
+
+// A torus has a loop around its tube, one through its middle, and their sum, which takes diagonals.
+TEST (HandleLoops, OfATorusAreAsLongAsItIsWide)
+{
+  EXPECT_EQ (lengthsOfLoops (samples::torus (9, 5), 4), std::vector<std::size_t>{});
+  EXPECT_EQ (lengthsOfLoops (samples::torus (9, 5), 5), std::vector<std::size_t>{5});
+  EXPECT_EQ (lengthsOfLoops (samples::torus (9, 5), 8), std::vector<std::size_t>{5});
+  EXPECT_EQ (lengthsOfLoops (samples::torus (9, 5), 12), (std::vector<std::size_t>{5, 9, 9}));
+  EXPECT_EQ (lengthsOfLoops (samples::beside (samples::torus (12, 3), samples::torus (12, 4)), 6),
+             (std::vector<std::size_t>{3, 4}));
+}
+
+// A hole in a torus makes no loop more, and takes none away.
+TEST (HandleLoops, DoNotGoAroundBoundaries)
+{
+  EXPECT_EQ (lengthsOfLoops (samples::annulus (5), 12), std::vector<std::size_t>{});
+  EXPECT_EQ (lengthsOfLoops (samples::tetrahedron (), 12), std::vector<std::size_t>{});
+  for (std::size_t hole = 0; hole < 90; ++hole) {
+    Mesh torus = samples::torus (9, 5);
+    torus.triangles.erase (torus.triangles.begin () + static_cast<std::ptrdiff_t> (hole));
+    EXPECT_EQ (lengthsOfLoops (torus, 5), std::vector<std::size_t>{5}) << hole;
+  }
+}
+
+LocalGeometry
+geometryOf (const samples::TwoSheets& sheets, double spacing = 0.1)
+{
+  LocalGeometry geometry;
+  geometry.neighbors = sheets.neighbors;
+  geometry.spacing.assign (sheets.positions.size (), static_cast<float> (spacing));
+  geometry.stars.normals = sheets.normals;
+  return geometry;
+}
+
+// Two sheets face each other, and are joined by prisms in the places of some of their triangles.
+samples::TwoSheets
+joinedSheets (const std::vector<std::size_t>& places)
+{
+  constexpr Index SIDE = 14;
+  Mesh lower = samples::sheet (SIDE), upper = lower;
+  samples::turnRound (upper);
+  for (Eigen::Vector3d& p : upper.positions)
+    p.z () = 0.08;
+  samples::TwoSheets sheets (lower, upper, 12);
+  const std::size_t points = lower.positions.size (), triangles = lower.triangles.size ();
+  std::fill (sheets.normals.begin () + static_cast<std::ptrdiff_t> (points), sheets.normals.end (),
+             Eigen::Vector3f (0, 0, -1));
+  samples::Triangles joined;
+  for (std::size_t t = 0; t < 2 * triangles; ++t)
+    if (std::count (places.begin (), places.end (), t % triangles) == 0)
+      joined.push_back (sheets.mesh.triangles[t]);
+  for (const std::size_t t : places)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index p = lower.triangles[t][i], q = lower.triangles[t][(i + 1) % 3];
+      const auto above = [&] (Index r) { return static_cast<Index> (r + points); };
+      joined.push_back ({p, q, above (q)});
+      joined.push_back ({p, above (q), above (p)});
+    }
+  sheets.mesh = samples::connected (joined, sheets.positions.size ());
+  return sheets;
+}
+
+// One bridge makes one component of two; each more makes a handle.
+TEST (HandleCutting, CutsBridgesBetweenSheets)
+{
+  for (const std::vector<std::size_t>& places :
+       {std::vector<std::size_t>{}, {180}, {95, 290}, {95, 290, 112, 276}}) {
+    samples::TwoSheets sheets = joinedSheets (places);
+    const std::size_t handles = std::max<std::size_t> (places.size (), 1) - 1;
+    EXPECT_EQ (cutHandles (sheets.mesh, sheets.positions, geometryOf (sheets), {}, 1), handles);
+    samples::expectConsistent (sheets.mesh);
+    const samples::Topology topology = samples::topologyOf (sheets.mesh.triangles);
+    EXPECT_EQ (topology.euler, places.empty () ? 2 : 0);
+    EXPECT_EQ (topology.vertices, sheets.positions.size ());
+    EXPECT_EQ (topology.loops.size (), 2U);
+  }
+}
+
+TEST (HandleCutting, KeepsThinTubes)
+{
+  for (const Index across : {3U, 4U, 6U, 9U, 12U}) {
+    const Mesh torus = samples::torus (8 * across / 3, across);
+    samples::TwoSheets sheets (torus, {}, 12);
+    sheets.normals.clear ();
+    for (Index x = 0; x < torus.positions.size (); ++x) {
+      const Eigen::Vector3d& p = torus.positions[x];
+      const Eigen::Vector3d middle = Eigen::Vector3d (p.x (), p.y (), 0.0).normalized ();
+      sheets.normals.push_back ((p - middle).normalized ().cast<float> ());
+    }
+    EXPECT_EQ (cutHandles (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, 1), 0U);
+    samples::expectSame (sheets.mesh, samples::connected (torus));
+  }
+}
+
+} // namespace
+} // namespace pcl::floater
