@@ -71,10 +71,10 @@ class ZoneFinder
 {
 public:
   ZoneFinder (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const CsrLists& neighbors, const std::vector<float>& spacing,
+              const CsrLists& neighbors, const std::vector<float>& spacing, bool whole_loops,
               const DisturbanceLimits& limits, const RunContext& run)
       : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
-        limits_ (limits), run_ (run)
+        whole_loops_ (whole_loops), limits_ (limits), run_ (run)
   {
   }
 
@@ -171,15 +171,18 @@ private:
 
   // The whole of a loop that is a gap. Of one that is a true boundary elsewhere: where it runs along
   // a fold, so near to the other sheet that the points would not show a gap.
-  std::vector<Index> pointsOfGap (const std::vector<Index>& loop) const
+  std::vector<Index> pointsOfGap (const std::vector<Index>& loop)
   {
     if (loop.size () <= limits_.small_loop)
       return loop;
     const std::vector<Index> beside = besideSheet (loop, limits_.beside);
     if (static_cast<double> (beside.size ()) >=
-            limits_.gap_share * static_cast<double> (loop.size ()) &&
-        stretches (loop, beside).size () == loop.size ())
-      return loop;
+        limits_.gap_share * static_cast<double> (loop.size ())) {
+      const bool all_along = stretches (loop, beside).size () == loop.size ();
+      zones_.may_be_parts = zones_.may_be_parts || !all_along;
+      if (all_along || whole_loops_)
+        return loop;
+    }
     return stretches (loop, besideSheet (loop, limits_.touching));
   }
 
@@ -318,6 +321,7 @@ private:
   const std::vector<Eigen::Vector3d>& positions_;
   const CsrLists& neighbors_;
   const std::vector<float>& spacing_;
+  const bool whole_loops_;
   const DisturbanceLimits& limits_;
   const RunContext& run_;
   std::vector<std::vector<Index>> loops_;
@@ -334,10 +338,11 @@ private:
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings,
+                    const std::vector<CrossingPair>& crossing, int rings, bool whole_loops,
                     const DisturbanceLimits& limits, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, neighbors, spacing, limits, run).find (crossing, rings);
+  return ZoneFinder (mesh, positions, neighbors, spacing, whole_loops, limits, run)
+      .find (crossing, rings);
 }
 
 } // namespace pcl::floater

@@ -33,9 +33,10 @@ struct DisturbanceLimits
 /// Free points, whose triangles are to be made anew.
 struct DisturbedZones
 {
-  CsrLists points;                       ///< of each zone, ascending. Two zones share no triangle
-                                         ///< corner, and no point of one is a neighbour of another
-  std::vector<std::uint8_t> is_free;     ///< of each point; empty if there is no zone
+  CsrLists points;                   ///< of each zone, ascending. Two zones share no triangle
+                                     ///< corner, and no point of one is a neighbour of another
+  std::vector<std::uint8_t> is_free; ///< of each point; empty if there is no zone
+  bool may_be_parts = false; ///< some loops are gaps at the whole, but perhaps only in parts
   std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays; not free
 };
 
@@ -47,10 +48,11 @@ struct DisturbedZones
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
 /// \param rings     width of a zone around what is disturbed
+/// \param whole_loops whether a loop that is a gap in part counts as one all along
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                     const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings,
+                    const std::vector<CrossingPair>& crossing, int rings, bool whole_loops,
                     const DisturbanceLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

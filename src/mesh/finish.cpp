@@ -3,6 +3,7 @@
 #include "mesh/finish.h"
 
 #include "mesh/flips.h"
+#include "mesh/hole_filling.h"
 #include "mesh/insertion.h"
 
 namespace pcl::floater {
@@ -27,6 +28,31 @@ repair (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, Local
       run);
   finish.repairs += done;
   return done;
+}
+
+// Fills small loops beside zones that were made anew. They are no openings.
+std::size_t
+fillPinholes (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+              const std::vector<float>& spacing, const TriangleCost& cost,
+              const std::vector<std::uint8_t>& is_remade, std::size_t largest,
+              const RunContext& run)
+{
+  std::vector<BoundaryLoop> pinholes;
+  std::vector<Index> fan;
+  const auto isBeside = [&] (Index p) {
+    mesh.fan (p, fan);
+    return std::any_of (fan.begin (), fan.end (), [&] (Index t) {
+      const Triangle& c = mesh.triangles[t];
+      return std::any_of (c.begin (), c.end (), [&] (Index q) { return is_remade[q] != 0; });
+    });
+  };
+  for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
+    if (loop.size () <= largest && std::any_of (loop.begin (), loop.end (), isBeside)) {
+      pinholes.emplace_back ();
+      pinholes.back ().points = loop;
+      measureLoop (pinholes.back (), positions, spacing);
+    }
+  return fillHoles (mesh, pinholes, positions, cost, {}, run);
 }
 } // namespace
 
@@ -58,9 +84,14 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     finish.pairs_found = finish.crossing->size ();
     const auto remake = [&] (int widest) {
-      if (settings.remake_sheets && finish.crossing->untested.empty ())
-        remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
-                     widest, finish.remade, settings.limits.remaking, run);
+      if (!settings.remake_sheets || !finish.crossing->untested.empty ())
+        return;
+      remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
+                   widest, finish.remade, settings.limits.remaking, run);
+      if (finish.remade.points () > 0 &&
+          fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
+                        settings.limits.remaking.disturbance.small_loop, run) > 0)
+        finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
     remake (WIDEST);
     if (finish.folds + finish.pairs_found + finish.remade.points () > 0) {

@@ -36,15 +36,16 @@ public:
       mesh_.triangles.push_back (
           turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
     for (std::size_t p = 0; p < place.positions.size (); ++p)
-      is_outside_.push_back (isInside (p) ? 0 : 1);
+      is_outside_.push_back (isInside (p) || place.is_whole[p] != 0 ? 0 : 1);
     is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside_);
   }
 
   bool isManifold () const { return is_manifold_; }
 
-  /// Whether each point inside has a single fan, closed but at boundaries that stay.
-  bool fits (const RunContext& run) const
+  /// Points inside that do not have a single fan, closed but at boundaries that stay.
+  std::vector<Index> misfits (const RunContext& run) const
   {
+    std::vector<Index> found;
     const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
     const TriangleRanges ranges (mesh_.triangles, place_.positions.size (), run);
     StarOrder order;
@@ -54,34 +55,50 @@ public:
         const VertexStar star = stars.of (p);
         if (!isInside (p))
           continue;
-        if (star.size () == 0 || !order.set (star) || !order.isOneFan ())
-          return false;
-        for (std::size_t i = 0; i < star.size (); ++i)
-          if ((order.before (i) == NONE && !(stays (p) && stays (star[i].next))) ||
-              (order.after (i) == NONE && !(stays (p) && stays (star[i].previous))))
-            return false;
+        bool fits = star.size () > 0 && order.set (star) && order.isOneFan ();
+        for (std::size_t i = 0; i < star.size () && fits; ++i)
+          fits = (order.before (i) != NONE || (stays (p) && stays (star[i].next))) &&
+                 (order.after (i) != NONE || (stays (p) && stays (star[i].previous)));
+        if (!fits)
+          found.push_back (p);
       }
     }
-    return true;
+    return found;
   }
 
+  /// By Euler's formula. Points whose triangles make several fans count once for each.
   long twiceHandles () const
   {
-    const std::size_t points = place_.positions.size ();
-    DisjointSets pieces = components (), loops (points);
-    std::vector<std::uint8_t> is_open (points, 0);
-    const auto triangles = static_cast<long> (mesh_.triangles.size ());
-    long open_edges = 0, twice = 0;
-    for (const MeshEdge e : boundaryEdges (mesh_)) {
-      loops.join (mesh_.from (e), mesh_.to (e));
-      is_open[mesh_.from (e)] = is_open[mesh_.to (e)] = 1;
-      ++open_edges;
-    }
-    for (Index p = 0; p < points; ++p)
-      if (mesh_.triangle_of[p] != NONE)
-        twice +=
-            (pieces.find (p) == p ? 2 : 0) - (is_open[p] != 0 && loops.find (p) == p ? 1 : 0) - 1;
-    return twice - triangles + (3 * triangles + open_edges) / 2;
+    const auto corner = [] (Index t, std::uint8_t side) { return 3 * t + side; };
+    const auto triangles = static_cast<Index> (mesh_.triangles.size ());
+    DisjointSets fans (3 * mesh_.triangles.size ()), loops = fans, pieces = fans;
+    std::vector<Index> open;
+    for (Index t = 0; t < triangles; ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index from = corner (t, TriangleMesh::next (side)),
+                    to = corner (t, TriangleMesh::previous (side));
+        pieces.join (from, to);
+        const MeshEdge mate = mesh_.mate ({t, side});
+        if (mate.triangle == NONE) {
+          loops.join (from, to);
+          open.push_back (from);
+          continue;
+        }
+        const Index across_from = corner (mate.triangle, TriangleMesh::previous (mate.side)),
+                    across_to = corner (mate.triangle, TriangleMesh::next (mate.side));
+        for (DisjointSets* sets : {&fans, &loops, &pieces}) {
+          sets->join (from, across_from);
+          sets->join (to, across_to);
+        }
+      }
+    std::vector<Index> loop_of;
+    for (const Index from : open)
+      loop_of.push_back (loops.find (from));
+    sortUnique (loop_of);
+    long twice = -static_cast<long> (loop_of.size ());
+    for (Index i = 0; i < 3 * triangles; ++i)
+      twice += (pieces.find (i) == i ? 2 : 0) - (fans.find (i) == i ? 1 : 0);
+    return twice + (static_cast<long> (triangles) + static_cast<long> (open.size ())) / 2;
   }
 
   /// Components that have no triangle of the frame, if there is a frame.

@@ -20,6 +20,7 @@ struct Place
   std::vector<std::uint8_t> is_free;     ///< of each point: all its triangles are made anew
   std::vector<std::uint8_t> is_rim;      ///< of each point: not free, but beside triangles that go
   std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays
+  std::vector<std::uint8_t> is_whole;    ///< of each point: all its triangles are in the place
   std::vector<Triangle> frame;           ///< triangles that stay, none with a free corner
   std::vector<Index> patch_of; ///< of each triangle of the frame: its patch. The triangles of
                                ///< a patch face one side, those of two patches may not

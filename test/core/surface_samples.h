@@ -87,7 +87,7 @@ bent (double radius)
 
 /// An open sheet, folded to 30 degrees along its middle.
 inline KnownSurface
-foldedSheet (std::uint64_t seed)
+foldedSheet (std::uint64_t seed, bool ragged = false)
 {
   constexpr double HEIGHT = 30.0;
   KnownSurface made = sheet (
@@ -96,7 +96,7 @@ foldedSheet (std::uint64_t seed)
         return Eigen::Vector3d (std::abs (p.x ()) * std::cos (PI / 12.0), p.y (),
                                 p.x () * std::sin (PI / 12.0));
       },
-      seed);
+      seed, ragged);
   made.sharp_length = HEIGHT;
   return made;
 }

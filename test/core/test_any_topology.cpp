@@ -284,8 +284,18 @@ cases ()
       roof.sharp_length = 40.0; // its eaves
       return roof;
     });
-  for (const std::uint64_t seed : {1, 2, 3})
+  // Edges of 16 degrees, and of 20.
+  for (const auto& [half_angle, seed] : {std::pair (8.0, 11), {8.0, 16}, {10.0, 2}, {10.0, 3}})
+    add ("blade_" + std::to_string (seed), [half_angle, seed] {
+      const double half = 20.0 * std::tan (half_angle * PI / 180.0);
+      KnownSurface blade = prism ({{{0, 0}, {20, -half}, {40, 0}, {20, half}}}, 30.0, seed);
+      blade.sharp_length = 66.0;
+      return blade;
+    });
+  for (const std::uint64_t seed : {1, 2, 3, 10, 14})
     add ("fold_seed_" + std::to_string (seed), [=] { return foldedSheet (seed); });
+  for (const std::uint64_t seed : {6, 12, 13, 21, 23})
+    add ("fold_ragged_seed_" + std::to_string (seed), [=] { return foldedSheet (seed, true); });
   // Outliers, several components.
   add ("sphere_outliers", [] { return withOutliers (sphere (3000, 6), 20, 12.0, 7); });
   add ("sphere_outliers_near", [] { return withOutliers (sphere (3000, 6), 20, 4.0, 7); });

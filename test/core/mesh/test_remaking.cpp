@@ -162,8 +162,9 @@ TEST (Remaking, TriesNoZoneOfOneSizeTwice)
     Spheres spheres (0.1);
     samples::exchange (spheres.mesh, 100, 121);
     CrossingPairs crossing = findSelfIntersections (spheres.mesh.triangles, spheres.positions, 1);
-    const DisturbedZones zones = findDisturbedZones (
-        spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing, crossing, 1, {}, 1);
+    const DisturbedZones zones =
+        findDisturbedZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing,
+                            crossing, 1, false, {}, 1);
     ASSERT_EQ (zones.points.rows (), 1U);
     RemadeZones remade;
     remade.failed.assign (spheres.positions.size (), has_failed ? zones.points.row (0).size () : 0);
@@ -195,9 +196,9 @@ TEST (Remaking, KeepsOpenings)
 {
   const auto zones = [] (Index around) {
     const samples::Mesh ring = samples::annulus (around);
-    return findDisturbedZones (samples::connected (ring), ring.positions,
-                               neighborsOf (ring.positions),
-                               std::vector<float> (ring.positions.size (), 1.0F), {}, 3, {}, 1)
+    return findDisturbedZones (
+               samples::connected (ring), ring.positions, neighborsOf (ring.positions),
+               std::vector<float> (ring.positions.size (), 1.0F), {}, 3, false, {}, 1)
         .points.rows ();
   };
   EXPECT_EQ (zones (12), 0U);
