@@ -308,12 +308,25 @@ private:
     }
   }
 
+  // Single tetrahedra and pieces; if none helps, two tetrahedra side by side.
   bool mendAt (Index p)
   {
     std::vector<std::vector<Index>> moves;
     flawsAt (p, &moves);
-    for (const Index t : all_.around.row (p))
+    const Row around = all_.around.row (p);
+    for (const Index t : around)
       moves.push_back ({t});
+    if (makeBest (moves))
+      return true;
+    moves.clear ();
+    for (const Index t : around)
+      for (const Index u : all_.neighbors[t])
+        moves.push_back ({t, u});
+    return makeBest (moves);
+  }
+
+  bool makeBest (const std::vector<std::vector<Index>>& moves)
+  {
     const std::vector<Index>* best = nullptr;
     std::vector<Index> points, best_points;
     long best_gain = 0;
