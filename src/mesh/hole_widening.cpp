@@ -106,18 +106,24 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
     for (const Index p : loops[i].points)
       loop_of[p] = i;
   TrianglesOverHoles over = findOverHoles (mesh, loops, evidence, loop_of, positions, limits);
-  if (over.empty ())
-    return;
-  TriangleMesh widened = mesh;
-  removeOver (over, widened, run);
-  std::vector<BoundaryLoop> wide =
-      widenedLoops (widened, loops, over, loop_of, positions, spacing, run);
-  judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
+  std::vector<BoundaryLoop> wide (loops.size ());
+  if (!over.empty ()) {
+    TriangleMesh widened = mesh;
+    removeOver (over, widened, run);
+    wide = widenedLoops (widened, loops, over, loop_of, positions, spacing, run);
+    judgeLoops (widened, wide, positions, neighbors, normals, open_loops, run);
+  }
+  std::vector<BoundaryLoop*> best;
+  for (Index i = 0; i < loops.size (); ++i)
+    best.push_back (wide[i].points.empty () ? &loops[i] : &wide[i]);
+  judgeTogether (best, open_loops);
   over.erase (std::remove_if (over.begin (), over.end (),
                               [&] (const auto& one) {
                                 return wide[one.second].judgement.log_odds < limits.log_odds;
                               }),
               over.end ());
+  if (over.empty ())
+    return;
   removeOver (over, mesh, run);
   for (const auto& [triangle, loop] : over)
     if (!wide[loop].points.empty ()) // not yet moved

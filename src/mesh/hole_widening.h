@@ -27,8 +27,9 @@ struct HoleWideningLimits
                           ///< four windows that are filled
 };
 
-/// Judges loops, and removes triangles over a hole where a loop that looks like
-/// a gap becomes a likely boundary without them. O(n) plus twice judgeLoops ().
+/// Judges loops, and removes triangles over a hole where a loop that looks like a gap becomes a
+/// likely boundary without them; doubtful loops of one width together (see judgeTogether). O(n) plus
+/// twice judgeLoops ().
 /// \param loops   of the mesh, ascending by their smallest points before
 /// \param spacing local spacing of each point
 void

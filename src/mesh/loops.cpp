@@ -317,6 +317,31 @@ isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits)
 }
 
 void
+judgeTogether (const std::vector<BoundaryLoop*>& loops, const OpenLoopLimits& limits)
+{
+  std::vector<std::pair<double, BoundaryLoop*>> by_width;
+  for (BoundaryLoop* loop : loops)
+    if (loop->width > 0.0 && loop->spacing > 0.0)
+      by_width.emplace_back (std::log (loop->width / loop->spacing), loop);
+  std::stable_sort (by_width.begin (), by_width.end (),
+                    [] (const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<double> sums{0.0};
+  for (const auto& [width, loop] : by_width)
+    sums.push_back (sums.back () +
+                    std::clamp (loop->judgement.log_odds, -limits.certain, limits.certain));
+  std::size_t first = 0, last = 0;
+  for (const auto& [width, loop] : by_width) {
+    while (by_width[first].first < width - limits.alike)
+      ++first;
+    while (last < by_width.size () && by_width[last].first <= width + limits.alike)
+      ++last;
+    if (std::abs (loop->judgement.log_odds) < limits.certain)
+      loop->judgement.log_odds =
+          (sums[last] - sums[first]) / std::sqrt (static_cast<double> (last - first));
+  }
+}
+
+void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
                  double unit)
 {

@@ -201,6 +201,38 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
 }
 
+// Loops of these widths, in spacings of 0.5, and log odds.
+std::vector<double>
+oddsTogether (const std::vector<std::pair<double, double>>& loops)
+{
+  std::vector<BoundaryLoop> all (loops.size ());
+  std::vector<BoundaryLoop*> judged;
+  for (std::size_t i = 0; i < loops.size (); ++i) {
+    all[i].width = 0.5 * loops[i].first;
+    all[i].spacing = 0.5;
+    all[i].judgement.log_odds = loops[i].second;
+    judged.push_back (&all[i]);
+  }
+  judgeTogether (judged, {});
+  std::vector<double> odds;
+  for (const BoundaryLoop& loop : all)
+    odds.push_back (loop.judgement.log_odds);
+  return odds;
+}
+
+TEST (LoopEvidence, OfLoopsOfOneWidthIsJudgedTogether)
+{
+  EXPECT_EQ (oddsTogether ({{8.0, 0.5}, {10.0, -0.7}, {5.0, 2.0}}),
+             (std::vector<double>{0.5, -0.7, 2.0}));
+  EXPECT_EQ (oddsTogether ({{8.0, 1.25}, {8.1, -0.5}, {7.6, 1.0}, {8.3, 0.25}}),
+             (std::vector<double>{1.0, 1.0, 1.0, 1.0}));
+  // What is certain stays as it is, and counts for 3; a loop without a width is left out.
+  EXPECT_EQ (oddsTogether ({{8.0, 9.0}, {8.0, -0.5}, {8.0, 8.0}, {8.0, -3.5}, {0.0, 1.0}}),
+             (std::vector<double>{9.0, 1.25, 8.0, -3.5, 1.0}));
+  EXPECT_EQ (oddsTogether ({{8.0, -9.0}, {8.0, 1.0}}),
+             (std::vector<double>{-9.0, -2.0 / std::sqrt (2.0)}));
+}
+
 TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
 {
   // Across the border of an even sheet, points whose normals are turned by 90 degrees.
