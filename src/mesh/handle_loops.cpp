@@ -95,8 +95,8 @@ private:
       open_edges += loop.size ();
     for (const Index t : mesh_.triangle_of)
       points += t != NONE ? 1 : 0;
-    return points + boundary_.size () !=
-           2 * findComponents (mesh_, run_).count + (mesh_.triangles.size () + open_edges) / 2;
+    return points + boundary_.size () != std::size_t{2} * findComponents (mesh_, run_).count +
+                                             (mesh_.triangles.size () + open_edges) / 2;
   }
 
   // The tree of triangles, breadth first. The filling of a boundary loop is a leaf of it, beyond one

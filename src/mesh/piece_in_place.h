@@ -91,14 +91,14 @@ public:
           sets->join (to, across_to);
         }
       }
-    std::vector<Index> loop_of;
-    for (const Index from : open)
-      loop_of.push_back (loops.find (from));
-    sortUnique (loop_of);
-    long twice = -static_cast<long> (loop_of.size ());
+    const auto open_edges = static_cast<long> (open.size ());
+    for (Index& from : open)
+      from = loops.find (from);
+    sortUnique (open);
+    long twice = -static_cast<long> (open.size ());
     for (Index i = 0; i < 3 * triangles; ++i)
       twice += (pieces.find (i) == i ? 2 : 0) - (fans.find (i) == i ? 1 : 0);
-    return twice + (static_cast<long> (triangles) + static_cast<long> (open.size ())) / 2;
+    return twice + (static_cast<long> (triangles) + open_edges) / 2;
   }
 
   /// Components that have no triangle of the frame, if there is a frame.

@@ -437,9 +437,9 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
         !spliced.connect (positions.size (), run))
       continue;
     remade.is_remade.resize (positions.size (), 0);
-    for (std::size_t zone = 0; zone < made.size (); ++zone)
-      if (made[zone])
-        for (const Index p : made[zone]->points)
+    for (const std::optional<NewZone>& zone : made)
+      if (zone)
+        for (const Index p : zone->points)
           remade.is_remade[p] = 1;
     mesh = std::move (spliced);
     crossing = findSelfIntersections (mesh.triangles, positions, run);

@@ -113,7 +113,9 @@ TEST (HandleCutting, KeepsThinTubes)
       const Eigen::Vector3d middle = Eigen::Vector3d (p.x (), p.y (), 0.0).normalized ();
       sheets.normals.push_back ((p - middle).normalized ().cast<float> ());
     }
-    EXPECT_EQ (cutHandles (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, 1), 0U);
+    EXPECT_EQ (
+        cutHandles (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, 1),
+        0U);
     samples::expectSame (sheets.mesh, samples::connected (torus));
   }
 }
