@@ -6,6 +6,7 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/piece_in_place.h"
+#include "mesh/place_of_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -40,14 +41,6 @@ struct NewZone
   std::vector<PatchSide> patches;
 };
 
-// A place, and what it is of the mesh.
-struct PlaceOfMesh
-{
-  Place place;
-  std::vector<Index> points, frame; // of each point and each triangle of the frame: which it is
-  std::vector<Triangle> old;        // triangles that go, by points of the place
-};
-
 class ZoneRemaker
 {
 public:
@@ -69,7 +62,8 @@ public:
       return std::nullopt;
     std::vector<Index> free (zone.begin (), zone.end ());
     for (int growths = 0; growths <= MOST_GROWTHS; ++growths) {
-      const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()});
+      const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh_,
+                                      positions_, neighbors_, zones_);
       RemadePlace made = remakePlace (at.place, run_);
       if (growths == 0)
         is_noise = isNoise (made.flawed, zone.size ()) ? 1 : 0;
@@ -100,7 +94,8 @@ private:
     std::size_t flawed = 0;
     for (std::size_t i = 0; i < TRIED_PLACES && zone.size () >= LARGE_ZONE; ++i) {
       const Index* const first = zone.first + i * (zone.size () / TRIED_PLACES);
-      Place place = placeOf ({first, first + TRIED_POINTS}).place;
+      Place place =
+          placeOf ({first, first + TRIED_POINTS}, mesh_, positions_, neighbors_, zones_).place;
       for (std::size_t p = 0; p < place.is_free.size (); ++p)
         place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
       flawed += remakePlace (place, run_).flawed;
@@ -127,68 +122,6 @@ private:
       if (const Index patch = at.place.patch_of[i]; is_known[patch]++ == 0)
         zone.patches.push_back ({at.frame[i], made.is_turned[patch] != 0});
     return zone;
-  }
-
-  void addRing (std::vector<Index>& points) const
-  {
-    std::vector<Index> wider = points;
-    for (const Index p : points) {
-      const Row around = neighbors_.row (p);
-      wider.insert (wider.end (), around.begin (), around.end ());
-    }
-    pcl::floater::addRing (mesh_, points);
-    points.insert (points.end (), wider.begin (), wider.end ());
-    sortUnique (points);
-  }
-
-  PlaceOfMesh placeOf (Row zone) const
-  {
-    PlaceOfMesh at;
-    Place& place = at.place;
-    std::vector<Index>& points = at.points; // ascending
-    points.assign (zone.begin (), zone.end ());
-    addRing (points);
-    addRing (points);
-    const auto inPlace = [&points] (Index p) {
-      const auto found = std::lower_bound (points.begin (), points.end (), p);
-      return found != points.end () && *found == p ? static_cast<Index> (found - points.begin ())
-                                                   : NONE;
-    };
-    place.is_free.assign (points.size (), 0);
-    place.is_rim.assign (points.size (), 0);
-    place.is_whole.assign (points.size (), 1);
-    for (const Index p : zone)
-      place.is_free[inPlace (p)] = 1;
-    std::vector<Index> fan;
-    for (Index i = 0; i < points.size (); ++i) {
-      place.positions.push_back (positions_[points[i]]);
-      place.is_boundary.push_back (place.is_free[i] == 0 ? zones_.is_boundary[points[i]] : 0);
-      mesh_.fan (points[i], fan);
-      for (const Index t : fan) {
-        const Triangle& c = mesh_.triangles[t];
-        const Triangle local{inPlace (c[0]), inPlace (c[1]), inPlace (c[2])};
-        const bool goes = std::any_of (local.begin (), local.end (), [&] (Index p) {
-          return p != NONE && place.is_free[p] != 0;
-        });
-        const bool stays =
-            !goes && *std::max_element (local.begin (), local.end ()) != NONE &&
-            std::none_of (c.begin (), c.end (), [&] (Index p) { return zones_.is_free[p] != 0; });
-        if (goes && place.is_free[i] == 0)
-          place.is_rim[i] = 1;
-        if (!goes && !stays)
-          place.is_whole[i] = 0;
-        if (*std::min_element (local.begin (), local.end ()) != i)
-          continue;
-        if (goes)
-          at.old.push_back (local);
-        if (stays) {
-          at.frame.push_back (t);
-          place.frame.push_back (local);
-        }
-      }
-    }
-    findPatches (at.frame, place);
-    return at;
   }
 
   // Where a boundary that stays has new triangles apart from the others at a point, one more fills
@@ -235,22 +168,6 @@ private:
       made.triangles.push_back ({p, q, r});
       add (made.triangles.back ());
     }
-  }
-
-  // Patches are connected by edges.
-  void findPatches (const std::vector<Index>& frame, Place& place) const
-  {
-    std::map<Index, Index> number;
-    for (std::size_t i = 0; i < frame.size (); ++i)
-      number[frame[i]] = static_cast<Index> (i);
-    DisjointSets sets (frame.size ());
-    for (std::size_t i = 0; i < frame.size (); ++i)
-      for (const Index t : mesh_.neighbors[frame[i]])
-        if (const auto at = number.find (t); at != number.end ())
-          sets.join (static_cast<Index> (i), at->second);
-    place.patch_of = std::move (sets).number ([] (Index) { return true; });
-    for (const Index patch : place.patch_of)
-      place.patches = std::max (place.patches, patch + 1);
   }
 
   double meanEdge (Index p) const
