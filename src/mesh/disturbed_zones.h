@@ -33,10 +33,10 @@ struct DisturbanceLimits
 /// Free points, whose triangles are to be made anew.
 struct DisturbedZones
 {
-  CsrLists points;                   ///< of each zone, ascending. Two zones share no triangle
-                                     ///< corner, and no point of one is a neighbour of another
-  std::vector<std::uint8_t> is_free; ///< of each point; empty if there is no zone
-  bool may_be_parts = false; ///< some loops are gaps at the whole, but perhaps only in parts
+  CsrLists points;                       ///< of each zone, ascending. Two zones share no triangle
+                                         ///< corner, and no point of one is a neighbour of another
+  std::vector<std::uint8_t> is_free;     ///< of each point; empty if there is no zone
+  bool may_be_parts = false;             ///< some loops look like gaps only in part
   std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays; not free
 };
 

@@ -88,7 +88,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
         return;
       remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
                    widest, finish.remade, settings.limits.remaking, run);
-      if (finish.remade.points () > 0 &&
+      if (settings.limits.remaking.disturbance.closes_gaps && finish.remade.points () > 0 &&
           fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
                         settings.limits.remaking.disturbance.small_loop, run) > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);

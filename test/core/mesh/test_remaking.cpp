@@ -45,7 +45,8 @@ TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
   EXPECT_NEAR (volume, 4.0 / 3.0 * PI, 0.15);
 }
 
-// Noise of half a spacing leaves pieces of a side around some points of every second sphere.
+// Noise of half a spacing leaves pieces of a side around some points of every second sphere. Single
+// tetrahedra mend 10 of 40 spheres, and two side by side five more.
 TEST (TwoSides, PiecesAroundAPointAreMended)
 {
   std::size_t mended = 0;
@@ -57,7 +58,7 @@ TEST (TwoSides, PiecesAroundAPointAreMended)
     const RemadePlace made = remakePlace (placeOf (positions), 1);
     mended += made.flawed > 0 && made.is_right ? 1 : 0;
   }
-  EXPECT_GE (mended, 5U);
+  EXPECT_GE (mended, 13U);
 }
 
 CsrLists
