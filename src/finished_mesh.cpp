@@ -110,7 +110,7 @@ useMesh (TriangleMesh mesh, const MeshFinish& finish, MeshExamination found, con
   if (!problem)
     reportFacing (points, finish.facing, request.options.facing, report);
   report.statistics.flips = finish.flips;
-  report.statistics.handles_cut = finish.handles_cut;
+  report.statistics.necks_cut = finish.necks_cut;
   report.statistics.remade_points = finish.remade.points ();
   report.statistics.self_intersection_flips = finish.repairs.flips;
   report.statistics.self_intersection_moves = finish.repairs.moves;

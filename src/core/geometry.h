@@ -79,6 +79,16 @@ isFold (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
          product * product > SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
 }
 
+/// True if the surface bends by more than 60 degrees between two normals of any length.
+inline bool
+isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
+{
+  constexpr double SQR_COSINE = 0.25;
+  const double product = normal.dot (other);
+  return product <= 0.0 ||
+         product * product < SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
+}
+
 /// Right-handed axes with the normal as the third.
 struct TangentFrame
 {

@@ -14,16 +14,6 @@
 
 namespace pcl::floater {
 namespace {
-// Whether the surface bends by more than 60 degrees between two normals of any length.
-bool
-isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
-{
-  constexpr double SQR_COSINE = 0.25;
-  const double product = normal.dot (other);
-  return product <= 0.0 ||
-         product * product < SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
-}
-
 // Whether some ball through the corners of a triangle has no other point inside, as far as the
 // given points tell.
 class EmptyBall

@@ -80,7 +80,6 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       openBoundaryFolds (mesh, positions, run);
   }
   if (settings.repair && finish.is_repairable) {
-    finish.handles_cut = cutHandles (mesh, positions, geometry, settings.limits.handles, run);
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     finish.pairs_found = finish.crossing->size ();
     const auto remake = [&] (int widest) {
@@ -94,6 +93,10 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
     remake (WIDEST);
+    if (!finish.remade.is_noise)
+      finish.necks_cut = cutNecks (mesh, positions, geometry, settings.limits.necks, run);
+    if (finish.necks_cut > 0)
+      finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     if (finish.folds + finish.pairs_found + finish.remade.points () > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
       if (!finish.remade.is_noise &&

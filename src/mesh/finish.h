@@ -6,7 +6,7 @@
 #include "local/local_geometry.h"
 #include "mesh/facing.h"
 #include "mesh/flaw_repair.h"
-#include "mesh/handle_cutting.h"
+#include "mesh/neck_cutting.h"
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
@@ -24,7 +24,7 @@ struct FinishLimits
   CostLimits cost;
   RepairLimits repair;
   NotchLimits notches;
-  HandleLimits handles;
+  NeckLimits necks;
   RemakingLimits remaking;
   FacingLimits facing;
 };
@@ -50,7 +50,7 @@ struct MeshFinish
   std::size_t flips = 0;
   std::size_t folds = 0;       ///< folded edges after the flips, before the repair
   bool is_repairable = true;   ///< false: more folds than FinishSettings::largest_fold_share
-  std::size_t handles_cut = 0; ///< handles that the points do not support
+  std::size_t necks_cut = 0;   ///< necks that the points do not support
   std::size_t pairs_found = 0; ///< crossing pairs before any was removed
   Repairs repairs;
   RemadeZones remade;                    ///< made anew in space

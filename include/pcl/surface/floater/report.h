@@ -255,7 +255,7 @@ struct Statistics
   std::size_t levels = 0;        ///< depth to which collapsed regions of a disc were laid out again
   std::size_t flips = 0;         ///< edges flipped in space
   std::size_t folds = 0;         ///< see MeshCheck::folds
-  std::size_t handles_cut = 0;   ///< surface: handles between sheets that only come close
+  std::size_t necks_cut = 0;     ///< surface: necks between sheets that only come close
   std::size_t remade_points = 0; ///< surface: points at which several sheets are near, whose
                                  ///< triangles were made anew in space
   std::size_t self_intersections_found = 0;   ///< before any were removed

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/handle_cutting.h"
+#include "mesh/neck_cutting.h"
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "mesh/handle_loops.h"
 #include "mesh/insertion.h"
+#include "mesh/neck_loops.h"
 #include "mesh/self_intersections.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -23,15 +24,16 @@ struct Replacement
 {
   std::vector<Index> gone;
   std::vector<Triangle> triangles;
+  double cost_left = 1.0; // share
 };
 
 // The mesh around a loop, with points numbered from 0.
-class LoopCut
+class NeckCut
 {
 public:
-  LoopCut (const TriangleMesh& mesh, const std::vector<Index>& loop,
+  NeckCut (const TriangleMesh& mesh, const std::vector<Index>& loop,
            const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-           const HandleLimits& limits, const RunContext& run)
+           const NeckLimits& limits, const RunContext& run)
       : mesh_ (mesh), limits_ (limits), run_ (run), points_ (loop),
         cost_ (positions_, normals_, &spacing_, limits.cost)
   {
@@ -74,7 +76,8 @@ public:
     Replacement best;
     if (!before_.connect (points_.size (), run_, &is_rim_) || !markSides ())
       return best;
-    double least = limits_.cost_left * costOf (before_);
+    const double cost_before = costOf (before_);
+    double least = limits_.cost_left * cost_before;
     const std::multiset<Edge> rim = rimEdges (before_);
     for (const std::uint8_t sides : {BOTH, LEFT, RIGHT}) {
       TriangleMesh after;
@@ -86,7 +89,7 @@ public:
         continue;
       if (const double cost = costOf (after); cost < least) {
         least = cost;
-        best = {triangles_, std::move (after.triangles)};
+        best = {triangles_, std::move (after.triangles), cost / cost_before};
       }
     }
     for (Triangle& t : best.triangles)
@@ -196,25 +199,33 @@ private:
     return edges;
   }
 
+  // The angles between triangles, times the lengths of their edges; a crossing pair counts like a
+  // fold along an edge. Planes of points are not asked: near a false neck, they are those of no
+  // sheet.
   double costOf (const TriangleMesh& mesh) const
   {
-    const auto value = [&] (Index t) {
-      return cost_.value (mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]);
-    };
-    const std::size_t pairs = findSelfIntersections (mesh.triangles, positions_, run_).size ();
-    double sum = limits_.pair_cost * static_cast<double> (pairs);
-    for (Index t = 0; t < mesh.triangles.size (); ++t) {
-      const TriangleCost::Value own = value (t);
-      sum += own.cost;
-      for (const Index u : mesh.neighbors[t])
-        if (u < t) // NONE is above
-          sum += cost_.ofEdge (own.unit_normal, value (u).unit_normal);
-    }
-    return sum;
+    std::vector<Eigen::Vector3d> normals;
+    normals.reserve (mesh.triangles.size ());
+    for (const Triangle& t : mesh.triangles)
+      normals.push_back (areaVectorOf (t, positions_).normalized ());
+    double bending = 0.0, length = 0.0;
+    std::size_t edges = 0;
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (const Index u = mesh.neighbors[t][side]; u < t) { // NONE is above
+          const double own =
+              (positions_[mesh.from ({t, side})] - positions_[mesh.to ({t, side})]).norm ();
+          bending += own * std::acos (std::clamp (normals[t].dot (normals[u]), -1.0, 1.0));
+          length += own;
+          ++edges;
+        }
+    const auto pairs =
+        static_cast<double> (findSelfIntersections (mesh.triangles, positions_, run_).size ());
+    return bending + PI * pairs * length / static_cast<double> (edges);
   }
 
   const TriangleMesh& mesh_;
-  const HandleLimits& limits_;
+  const NeckLimits& limits_;
   const RunContext run_;
   std::vector<Index> points_, triangles_; // of the mesh
   std::vector<Index> loop_;
@@ -232,34 +243,31 @@ private:
 } // namespace
 
 std::size_t
-cutHandles (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const LocalGeometry& geometry, const HandleLimits& limits, const RunContext& run)
+cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+          const LocalGeometry& geometry, const NeckLimits& limits, const RunContext& run)
 {
   std::size_t cuts = 0;
-  std::set<std::vector<Index>> tried;
   while (true) {
-    std::vector<std::vector<Index>> loops = findHandleLoops (mesh, limits.longest_loop, run);
-    loops.erase (std::remove_if (loops.begin (), loops.end (),
-                                 [&] (const auto& loop) { return !tried.insert (loop).second; }),
-                 loops.end ());
+    const std::vector<std::vector<Index>> loops =
+        findNeckLoops (mesh, positions, limits.longest_loop, run);
     std::vector<Replacement> made (loops.size ());
     parallelTasks (run, loops.size (), [&] (std::size_t i) {
-      made[i] = LoopCut (mesh, loops[i], positions, geometry, limits, run.withThreads (1)).cut ();
+      made[i] = NeckCut (mesh, loops[i], positions, geometry, limits, run.withThreads (1)).cut ();
+    });
+    std::stable_sort (made.begin (), made.end (), [] (const Replacement& a, const Replacement& b) {
+      return a.cost_left < b.cost_left;
     });
     std::vector<std::uint8_t> is_gone (loops.empty () ? 0 : mesh.triangles.size (), 0);
     TriangleMesh changed;
-    for (std::size_t i = 0; i < loops.size (); ++i) {
-      const Replacement& cut = made[i];
-      if (std::any_of (cut.gone.begin (), cut.gone.end (),
-                       [&] (Index t) { return is_gone[t] != 0; })) {
-        tried.erase (loops[i]); // the next round tries it again
+    for (const Replacement& cut : made) {
+      if (cut.gone.empty () || std::any_of (cut.gone.begin (), cut.gone.end (),
+                                            [&] (Index t) { return is_gone[t] != 0; }))
         continue;
-      }
       for (const Index t : cut.gone)
         is_gone[t] = 1;
       changed.triangles.insert (changed.triangles.end (), cut.triangles.begin (),
                                 cut.triangles.end ());
-      cuts += cut.gone.empty () ? 0 : 1;
+      ++cuts;
     }
     if (changed.triangles.empty ())
       return cuts;
@@ -267,7 +275,7 @@ cutHandles (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       if (is_gone[t] == 0)
         changed.triangles.push_back (mesh.triangles[t]);
     if (!changed.connect (positions.size (), run))
-      throw std::logic_error ("a handle was cut so that the mesh does not fit");
+      throw std::logic_error ("a neck was cut so that the mesh does not fit");
     mesh = std::move (changed);
   }
 }

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cuts necks that the points do not support.
+#pragma once
+
+#include "local/local_geometry.h"
+#include "mesh/flaw_repair.h"
+#include "mesh/hole_filling.h"
+#include "mesh/triangle_cost.h"
+#include "mesh/triangle_mesh.h"
+
+#include <vector>
+
+namespace pcl::floater {
+/// Limits of cutNecks ().
+struct NeckLimits
+{
+  std::size_t longest_loop = 12; ///< edges of a loop that is tried. False handles of thinned scans
+                                 ///< had loops of 3 to 9
+  double cost_left = 0.9; ///< share of the cost that a cut may leave. Between 80 pairs of spheres,
+                          ///< false necks left 0.42 to 0.83, but for two (0.91, 0.97); true ones of
+                          ///< thinned scans 0.906 or more
+  CostLimits cost;        ///< of triangles that fill an opening
+  double area_cost = HoleFillingLimits{}.area_cost;
+};
+
+/// Cuts along short loops around necks (see findNeckLoops): takes out the triangles at the points of
+/// a loop, on one side of it or on both, fills the two openings, and inserts points that have no
+/// triangle left. The cheapest of these cuts is made if it bends the mesh around less; of cuts that
+/// overlap, the one that leaves the least share. A neck between sheets that only come close bends
+/// twice by a right angle; across a true one, the fillings would. A cut takes a handle away, or
+/// parts a component in two. O(n), plus about a millisecond for a loop.
+/// \param geometry normals oriented like the mesh (see orientNormals)
+/// \return number of necks that were cut
+std::size_t
+cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+          const LocalGeometry& geometry, const NeckLimits& limits, const RunContext& run);
+
+} // namespace pcl::floater
