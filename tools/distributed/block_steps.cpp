@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "block_steps.h"
+#include "job.h"
 
 #include "cloud_geometry.h"
-#include "job.h"
 #include "local/planes.h"
 #include "options/check_options.h"
 #include "points/neighbors.h"
@@ -21,9 +20,9 @@ constexpr double HALO = 1.0, PLANE_HALO = 2.0, STAR_HALO = 2.0;
 // Writes what a block has found. Without arrays: it has no points.
 void
 put (const StepContext& context, const char* step, std::size_t block,
-     const ArrayWriter& writer = {})
+     const NamedArrays& arrays = {})
 {
-  context.store.put (blockFile (step, block), writer, context.plan.id);
+  context.store.put (blockFile (step, block), arrays, context.plan.id);
 }
 
 void
@@ -148,9 +147,7 @@ neighborsStep (const StepContext& context, std::size_t block)
   const CsrLists neighbors =
       findNearestOfBlock (search, Rows::range (first, last), cloud.ranges ().points (),
                           context.options.neighbors.k, context.run);
-  ArrayWriter writer;
-  writer.add ("ids", neighbors.ids);
-  put (context, "neighbors", block, writer);
+  put (context, "neighbors", block, {{"ids", neighbors.ids}});
 }
 
 int
@@ -171,9 +168,7 @@ outliersStep (const Job& job, FolderStore& store, const Plan& plan)
                    context.run);
     }
   }
-  ArrayWriter writer;
-  writer.add ("outliers", outliers);
-  store.put (OUTLIERS, writer, plan.id);
+  store.put (OUTLIERS, {{"outliers", outliers}}, plan.id);
   return EXIT_OK;
 }
 
@@ -183,7 +178,6 @@ planesStep (const StepContext& context, std::size_t block)
   OwnBlock own (context, block);
   if (own.isEmpty ())
     return put (context, "planes", block);
-  ArrayWriter writer;
   CsrLists beside_lists;
   std::vector<float> beside_reach, spacing;
   std::vector<Eigen::Vector3f> normals;
@@ -233,13 +227,14 @@ planesStep (const StepContext& context, std::size_t block)
       if (!given[i].isZero (0.0F))
         normals[i] = given[i];
   }
+  NamedArrays arrays{{"beside", beside_lists.ids},
+                     {"beside.offsets", beside_lists.offsets},
+                     {"beside_reach", beside_reach},
+                     {"spacing", spacing},
+                     {"normals", normals}};
   if (!own.outliers.empty ())
-    writer.add ("ids", nearest.ids);
-  writeLists ("beside", beside_lists, writer);
-  writer.add ("beside_reach", beside_reach);
-  writer.add ("spacing", spacing);
-  writer.add ("normals", normals);
-  put (context, "planes", block, writer);
+    arrays.emplace_back ("ids", nearest.ids);
+  put (context, "planes", block, arrays);
 }
 
 void
@@ -306,14 +301,15 @@ starsStep (const StepContext& context, std::size_t block)
         samples = takeAreaSamples (places, positions, stars);
     }
   } while (search.widen ());
-  ArrayWriter writer;
-  writeLists ("stars", all.neighbors, writer);
-  writeLists ("far", all.far_neighbors, writer);
-  writer.add ("open", all.open);
-  writer.add ("normals", all.normals);
-  writer.add ("reach", all.reach);
-  writer.add ("areas", samples);
-  put (context, "stars", block, writer);
+  put (context, "stars", block,
+       {{"stars", all.neighbors.ids},
+        {"stars.offsets", all.neighbors.offsets},
+        {"far", all.far_neighbors.ids},
+        {"far.offsets", all.far_neighbors.offsets},
+        {"open", all.open},
+        {"normals", all.normals},
+        {"reach", all.reach},
+        {"areas", samples}});
 }
 
 const Step*

@@ -252,9 +252,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
-  ArrayWriter writer;
-  writer.add ("triangles", result.triangles);
-  store.put (TRIANGLES, writer, plan.id);
+  store.put (TRIANGLES, {{"triangles", result.triangles}}, plan.id);
   if (job.frees_disk)
     forBlockFiles (plan, [&store] (const std::string& name) { store.remove (name); });
   return EXIT_OK;
@@ -275,25 +273,16 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
   if (line.compute_normals)
     replaceNormals (cloud, triangles, job.join_threads);
   removeNonFinitePoints (cloud, triangles);
-  std::optional<AtomicFile> report;
-  if (!line.report.empty ()) {
-    report.emplace (line.report);
-    report->write (store.open (REPORT).text ());
-    report->close ();
-  }
-  std::vector<std::string> losses;
-  if (job.writes_tiles)
-    losses = writeTiles (line.output, cloud, triangles, firsts, store, plan);
-  else {
-    AtomicFile mesh (line.output);
-    losses = writeMesh (mesh, line.output, cloud, triangles, *line.meshFormat ());
-    mesh.close ();
-    mesh.publish ();
-  }
+  OutputFiles files;
+  if (!line.report.empty ())
+    stageFile (line.report, store.open (REPORT).text (), files);
+  const std::vector<std::string> losses =
+      job.writes_tiles ? writeTiles (line.output, cloud, triangles, firsts, store, plan)
+                       : writeMesh (line.output, cloud, triangles, *line.meshFormat (), files);
   for (const std::string& loss : losses)
     std::fprintf (stderr, "warning: %s\n", printable (loss).c_str ());
-  if (report)
-    report->publish ();
+  for (AtomicFile& output : files)
+    output.publish ();
   return EXIT_OK;
 }
 

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is asked for, and the steps that are done once for the whole cloud.
+// What is asked for, and the steps of a run. Those of a block find out about its points, from the
+// points around it and from what the blocks around it have found out in the steps before. Each
+// writes one file. The results do not depend on the blocks.
 #pragma once
 
-#include "block_steps.h"
-
-#include <optional>
-#include <string>
-#include <vector>
+#include "core/run_context.h"
+#include "options/stage_limits.h"
+#include "points/points.h"
+#include "store.h"
 
 namespace pcl::floater {
+struct Step;
+
 /// What the user asked for.
 struct Job
 {
@@ -28,6 +31,56 @@ struct Job
   bool prints_steps = false;
   bool is_from_manifest = false; ///< files and options are those of the manifest
 };
+
+/// All that a step needs.
+struct StepContext
+{
+  /// \param store, plan must outlive this
+  StepContext (Store& files, const Plan& of, const CommandLine& line, const RunContext& context);
+
+  Store& store;
+  const Plan& plan;
+  Options options; ///< effective
+  Limits limits;   ///< effective
+  RunContext run;
+};
+
+using BlockStep = void (const StepContext& context, std::size_t block);
+
+BlockStep neighborsStep; ///< the nearest neighbours
+BlockStep planesStep;    ///< spacing and tangent planes
+BlockStep starsStep;     ///< Delaunay stars, each by itself (see makeStars)
+
+/// \return EXIT_OK, or the exit code of what is wrong, which has been printed
+using CloudStep = int (const Job& job, FolderStore& store, const Plan& plan);
+
+CloudStep outliersStep; ///< without these, if there are any, the points are written anew
+CloudStep joinStep;     ///< puts together what the blocks have found out
+CloudStep writeStep;    ///< the mesh, or its tiles: one for each input file, or each block of one
+
+/// A step of a run. Of `plan`, which makes the plan that the others need, both functions are nullptr.
+struct Step
+{
+  const char* name;
+  BlockStep* of_block; ///< for each block
+  CloudStep* of_all;   ///< for the whole cloud
+  const char* file;    ///< which tells that it is finished; nullptr: nothing does, or see blockFile
+
+  bool isPlan () const { return of_block == nullptr && of_all == nullptr; }
+};
+
+/// All steps, in order. Each starts when the one before is complete for all blocks.
+inline constexpr std::array<Step, 7> STEPS{{{"plan", nullptr, nullptr, MANIFEST},
+                                            {"neighbors", neighborsStep, nullptr, nullptr},
+                                            {"outliers", nullptr, outliersStep, OUTLIERS},
+                                            {"planes", planesStep, nullptr, nullptr},
+                                            {"stars", starsStep, nullptr, nullptr},
+                                            {"join", nullptr, joinStep, TRIANGLES},
+                                            {"write", nullptr, writeStep, nullptr}}};
+
+/// The step of this name; nullptr if there is none.
+const Step*
+findStep (const std::string& name);
 
 /// Parses the command line. Prints the help or the version if asked for.
 /// \return the exit code if there is nothing else to do
@@ -56,8 +109,8 @@ constexpr const char* TILES = "tiles.json";
 
 /// Writes the tiles and then the manifest. Of several files, each has a tile, which owns its points;
 /// of one file, each block. A repeated point belongs to the tile of the one that stands for it then,
-/// and a gross outlier, which is in no block, to the first tile. A triangle goes to the tile that owns the one of its
-/// corners with the smallest number. A tile has its own vertices, by their numbers, and then those
+/// and a gross outlier, which is in no block, to the first tile. A triangle goes to the tile that
+/// owns the one of its corners with the smallest number. A tile has its own vertices, by their numbers, and then those
 /// that its triangles have at the border, by the tile that owns them and their numbers. The
 /// manifest of an older run is removed first, and older tiles of higher numbers too.
 /// O(n log n), 16 bytes per vertex beside mesh and owners, and the largest tile twice.

@@ -60,12 +60,12 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
   RemoteStore remote (processes);
   Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
   std::optional<Plan> plan;
+  Message outcome;
   for (;;) {
-    processes.send (0, {});
-    const Message order = processes.receive (0);
+    const Message order = processes.ask (outcome);
     if (order.topic == Topic::END)
       return static_cast<int> (order.number);
-    Message outcome{Topic::DONE};
+    outcome.count = 1;
     outcome.number = static_cast<std::uint64_t> (guarded (
         [&] {
           if (!plan && !job.sends_files && !folder.has (MANIFEST))
@@ -79,9 +79,6 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
           return static_cast<int> (EXIT_OK);
         },
         &outcome.text));
-    if (outcome.number != EXIT_OK)
-      outcome.topic = Topic::FAIL;
-    processes.send (0, outcome);
   }
 }
 

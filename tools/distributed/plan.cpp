@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan.h"
+#include "store.h"
 
 #include "prepared_input.h"
-#include "store.h"
 
 #include <nlohmann/json.hpp>
 #include <xxhash.h>

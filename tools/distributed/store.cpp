@@ -50,51 +50,35 @@ withChecksums (std::uint64_t bytes)
 
 } // namespace
 
-std::string
-ByteSource::text () const
-{
-  std::string text (size, '\0');
-  read (0, text.size (), text.data ());
-  return text;
-}
-
 void
-ArrayWriter::add (const std::string& name, const void* values, std::size_t element,
-                  std::size_t count)
+Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan)
 {
-  ArrayEntry& entry = table_.emplace_back (ArrayEntry{{}, element, count, 0});
-  if (name.size () >= entry.name.size () || table_.size () > MOST_ARRAYS)
-    throw std::logic_error ("an array with such a name, or so many of them");
-  std::copy (name.begin (), name.end (), entry.name.begin ());
-  values_.push_back (static_cast<const char*> (values));
-}
-
-void
-ArrayWriter::emit (std::uint64_t plan, const TakeBytes& take) const
-{
-  std::vector<ArrayEntry> table = table_;
   Head head{MAGIC,
             WORK_FORMAT,
-            static_cast<std::uint32_t> (table.size ()),
+            static_cast<std::uint32_t> (arrays.size ()),
             plan,
-            sizeof (Head) + table.size () * sizeof (ArrayEntry),
+            sizeof (Head) + arrays.size () * sizeof (ArrayEntry),
             0};
-  for (ArrayEntry& entry : table) {
-    entry.offset = head.size;
+  std::vector<ArrayEntry> table;
+  for (const NamedArray& array : arrays) {
+    ArrayEntry& entry = table.emplace_back (ArrayEntry{{}, array.element, array.count, head.size});
+    array.name.copy (entry.name.data (), entry.name.size () - 1);
     head.size += withChecksums (entry.element * entry.count);
   }
   head.checksum = checksumOf (head, table);
-  take ({reinterpret_cast<const char*> (&head), sizeof (head)});
-  take ({reinterpret_cast<const char*> (table.data ()), table.size () * sizeof (ArrayEntry)});
-  for (std::size_t i = 0; i < table.size (); ++i)
-    for (std::uint64_t left = table[i].element * table[i].count, count = 0; left > 0;
-         left -= count) {
-      const char* const piece = values_[i] + (table[i].element * table[i].count - left);
-      count = std::min (PIECE, left);
-      const std::uint64_t checksum = checksumOf (piece, count);
-      take ({piece, count});
-      take ({reinterpret_cast<const char*> (&checksum), sizeof (checksum)});
+  put (file, [&] (const TakeBytes& take) {
+    take ({reinterpret_cast<const char*> (&head), sizeof (head)});
+    take ({reinterpret_cast<const char*> (table.data ()), table.size () * sizeof (ArrayEntry)});
+    for (const NamedArray& array : arrays) {
+      const std::uint64_t bytes = array.element * array.count;
+      for (std::uint64_t at = 0, count = 0; at < bytes; at += count) {
+        count = std::min (PIECE, bytes - at);
+        const std::uint64_t checksum = checksumOf (array.first + at, count);
+        take ({array.first + at, count});
+        take ({reinterpret_cast<const char*> (&checksum), sizeof (checksum)});
+      }
     }
+  });
 }
 
 void

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the files of a run are: in its work folder, or at another process that has it.
+// The files of a run, in its work folder or at another process that has it, and their manifest: what
+// is reconstructed, how, and in which blocks.
 #pragma once
 
 #include "core/types.h"
-#include "plan.h"
+#include "run_report.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,58 @@
 #include <vector>
 
 namespace pcl::floater {
+/// A file of points as it was when the plan was made.
+struct InputFile
+{
+  std::string file;
+  std::uint64_t bytes = 0;
+  std::uint64_t checksum = 0; ///< of all bytes
+};
+
+/// All that the steps after the first need to know, but the points.
+struct Plan
+{
+  std::uint64_t id = 0; ///< of inputs, parameters and format; in all files of the folder
+  std::vector<InputFile> inputs;
+  std::vector<std::string> arguments; ///< options of the command line that made it
+  std::string parameters;             ///< those that decide the result, as text
+  std::size_t points = 0;             ///< of the working set, with outliers
+  std::size_t blocks = 0;
+  std::size_t selected_points = 0;
+  std::array<double, 3> centre{}, sensor_origin{};
+  double scale = 1.0;
+  std::vector<std::string> warnings; ///< of the cloud
+  RunFigures figures;                ///< what is known of the cloud
+
+  std::size_t cloudSize () const { return figures.input_points; }
+  Eigen::Vector3d shift () const { return Eigen::Vector3d (figures.shift.data ()); }
+};
+
+/// \throws ReadError if a file is missing
+InputFile
+describeInput (const std::filesystem::path& path);
+
+/// Identifies a plan: the same for the same files, parameters and arguments of the one that made it.
+std::uint64_t
+planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
+        const std::vector<std::string>& arguments);
+
+std::string
+manifestText (const Plan& plan);
+
+/// \param name for messages
+/// \throws WorkError if it is no manifest of this version, or damaged
+Plan
+parseManifest (const std::string& text, const std::string& name);
+
+/// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
+/// are those that all files have with one type, and coordinates are doubles.
+/// \param[out] firsts the first row of each file, and the number of all rows
+/// \throws ReadError, which names the file
+Cloud
+readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& options,
+            std::vector<std::size_t>& firsts);
+
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
 constexpr std::uint32_t WORK_FORMAT = 11;
 
@@ -35,7 +88,12 @@ struct ByteSource
   std::function<void (std::uint64_t offset, std::size_t count, char* bytes)> read;
 
   /// All bytes of a small file.
-  std::string text () const;
+  std::string text () const
+  {
+    std::string text (size, '\0');
+    read (0, text.size (), text.data ());
+    return text;
+  }
 };
 
 /// Takes the bytes of a file, one piece after the other.
@@ -48,26 +106,22 @@ struct ArrayEntry
   std::uint64_t count, offset;
 };
 
-class ArrayWriter
+/// An array to write: numbers, or structs of numbers without gaps, which must outlive this.
+struct NamedArray
 {
-public:
-  /// \param values numbers, or structs of numbers without gaps; must outlive this
   template <typename T>
-  void add (const std::string& name, const std::vector<T>& values)
+  NamedArray (std::string array, const std::vector<T>& values)
+      : name (std::move (array)), first (reinterpret_cast<const char*> (values.data ())),
+        element (sizeof (T)), count (values.size ())
   {
-    add (name, values.data (), sizeof (T), values.size ());
   }
 
-  /// Passes on the bytes of the file.
-  /// \param plan of which the arrays are a part
-  void emit (std::uint64_t plan, const TakeBytes& take) const;
-
-private:
-  void add (const std::string& name, const void* values, std::size_t element, std::size_t count);
-
-  std::vector<ArrayEntry> table_; // without offsets
-  std::vector<const char*> values_;
+  std::string name; ///< shorter than in ArrayEntry
+  const char* first;
+  std::size_t element, count;
 };
+
+using NamedArrays = std::vector<NamedArray>;
 
 /// Arrays of a file. What is read is compared with its checksums.
 class ArrayFile
@@ -156,10 +210,7 @@ public:
                     const std::function<void (const TakeBytes&)>& emit) = 0;
 
   /// \param plan of which the arrays are a part
-  void put (const std::string& name, const ArrayWriter& arrays, std::uint64_t plan)
-  {
-    put (name, [&] (const TakeBytes& take) { arrays.emit (plan, take); });
-  }
+  void put (const std::string& name, const NamedArrays& arrays, std::uint64_t plan);
 };
 
 /// The files are in a folder. They are visible when they are complete and on the disk. Others must

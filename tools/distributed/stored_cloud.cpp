@@ -45,19 +45,19 @@ void
 writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
              const std::vector<Index>& gross_outliers, const RunContext& run)
 {
-  ArrayWriter writer;
   const std::vector<Box> buckets = BlockCutter::makeBuckets (points.positions, run);
-  writer.add ("positions", points.positions);
-  writer.add ("cloud_index", points.cloud_index);
-  writer.add ("normals", points.normals);
-  writer.add ("facing_normals", points.facing_normals);
   const std::vector<Box> groups = BlockCutter::makeGroups (buckets);
-  writer.add ("buckets", buckets);
-  writer.add ("groups", groups);
-  writer.add ("non_finite", points.non_finite);
-  writer.add ("duplicates", points.duplicates);
-  writer.add ("gross_outliers", gross_outliers);
-  store.put (name, writer, plan);
+  store.put (name,
+             {{"positions", points.positions},
+              {"cloud_index", points.cloud_index},
+              {"normals", points.normals},
+              {"facing_normals", points.facing_normals},
+              {"buckets", buckets},
+              {"groups", groups},
+              {"non_finite", points.non_finite},
+              {"duplicates", points.duplicates},
+              {"gross_outliers", gross_outliers}},
+             plan);
 }
 
 Points

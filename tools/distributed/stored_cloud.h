@@ -3,9 +3,9 @@
 // The points of a run and what the blocks have found out, as the steps of the blocks read them.
 #pragma once
 
-#include "block_steps.h"
 #include "core/csr_lists.h"
 #include "core/order_statistics.h"
+#include "job.h"
 #include "points/point_block.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ public:
     return values;
   }
 
-  /// Lists of some points, which the blocks have written by writeLists: row i is that of points[i].
+  /// Lists of some points: row i is that of points[i]. The offsets are in the array "<array>.offsets".
   CsrLists gatherLists (const std::string& array, const std::vector<Index>& points);
 
 private:
@@ -87,14 +87,6 @@ private:
   const char* step_;
   std::map<std::size_t, ArrayFile> files_;
 };
-
-/// Lists as two arrays, the second of which is named "<array>.offsets". They must outlive the writer.
-inline void
-writeLists (const std::string& array, const CsrLists& lists, ArrayWriter& writer)
-{
-  writer.add (array, lists.ids);
-  writer.add (array + ".offsets", lists.offsets);
-}
 
 using Box = BlockCutter::Box;
 
@@ -146,6 +138,23 @@ private:
   BlockRanges ranges_;
   BlockCutter cutter_;
 };
+
+/// Outliers that the second step has chosen, ascending.
+std::vector<Index>
+readOutliers (const StepContext& context);
+
+/// Writes a working set and what is needed to cut it.
+/// \param name POINTS or POINTS_LEFT
+/// \param gross_outliers cloud indices
+void
+writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
+             const std::vector<Index>& gross_outliers, const RunContext& run);
+
+/// Reads it.
+/// \param[out] gross_outliers cloud indices
+Points
+readPoints (Store& store, const std::string& name, const Plan& plan,
+            std::vector<Index>& gross_outliers);
 
 /// The neighbours of points without outliers, and those beside lines.
 class StoredNeighbors

@@ -114,10 +114,9 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
                     std::vector<double> (vertices.begin (), vertices.end ()), part.fields);
 
     const std::filesystem::path path = folder / tileName (tile);
-    AtomicFile file (path);
-    losses = writeMesh (file, path, part, local, MeshFormat::PLY);
-    file.close ();
-    file.publish ();
+    OutputFiles files;
+    losses = writeMesh (path, part, local, MeshFormat::PLY, files);
+    files.back ().publish ();
     const FileBytes written (path); // as it is read back
     std::array<char, 9> sum{};
     std::snprintf (sum.data (), sum.size (), "%08lx",

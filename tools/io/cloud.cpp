@@ -319,6 +319,22 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
   return not_finite;
 }
 
+std::vector<std::uint32_t>
+takeUsed (std::size_t points, Triangles& triangles)
+{
+  constexpr std::uint32_t UNUSED = std::numeric_limits<std::uint32_t>::max ();
+  std::vector<std::uint32_t> place (points, UNUSED), used;
+  for (auto& triangle : triangles)
+    for (std::uint32_t& corner : triangle) {
+      if (place[corner] == UNUSED) {
+        place[corner] = static_cast<std::uint32_t> (used.size ());
+        used.push_back (corner);
+      }
+      corner = place[corner];
+    }
+  return used;
+}
+
 Cloud
 copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows)
 {

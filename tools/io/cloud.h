@@ -283,6 +283,12 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 /// Three fields of one value each: the channels of a colour, or the coordinates of a normal.
 using FieldTriple = std::array<const Field*, 3>;
 
+inline Eigen::Vector3d
+vectorOf (const FieldTriple& fields, std::size_t row)
+{
+  return {fields[0]->asDouble (row), fields[1]->asDouble (row), fields[2]->asDouble (row)};
+}
+
 /// The fields red, green and blue if they are 8-bit colours, else three times nullptr.
 FieldTriple
 colorFields (const Cloud& cloud);
@@ -328,6 +334,11 @@ leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows);
 /// \return the number of points that are not finite
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
+
+/// The points that triangles use, in the order in which they come first; the triangles are renumbered
+/// by their places in it.
+std::vector<std::uint32_t>
+takeUsed (std::size_t points, Triangles& triangles);
 
 /// Adds fields like addColumns, in place of those that have their names.
 template <typename Values>

@@ -26,8 +26,7 @@ Eigen::Vector3f
 unitNormal (const FieldTriple& fields, std::size_t row)
 {
   constexpr double ROUNDING = 1e-4; // of the square, of numbers of four digits
-  Eigen::Vector3d normal (fields[0]->asDouble (row), fields[1]->asDouble (row),
-                          fields[2]->asDouble (row));
+  Eigen::Vector3d normal = vectorOf (fields, row);
   if (std::abs (normal.squaredNorm () - 1.0) > ROUNDING)
     normal.stableNormalize ();
   if (!normal.allFinite () || normal.isZero (0.0))

@@ -125,13 +125,6 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
   image.pixels.assign (side * side, {GREY, GREY, GREY});
   std::vector<std::uint8_t> is_painted (side * side, 0);
   const FieldTriple fields = colorFields (cloud);
-  const auto colourOf = [&] (std::uint32_t point) -> Colour {
-    Colour colour;
-    for (Eigen::Index channel = 0; channel < 3; ++channel)
-      colour[channel] = static_cast<double> (
-          fields[static_cast<std::size_t> (channel)]->value<std::uint8_t> (cloud.row (point)));
-    return colour;
-  };
   const auto length = static_cast<double> (side);
   const auto put = [&] (std::size_t x, std::size_t y, const Colour& colour) {
     std::array<std::uint8_t, 3>& pixel = image.pixels[y * side + x];
@@ -147,7 +140,7 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
       // The image has its first row at the top, and so the corners run clockwise in it.
       const Eigen::Vector2d uv = texture.coordinates[texture.corners[t][2 - i]].cast<double> ();
       corners[i] = length * Eigen::Vector2d (uv.x (), 1.0 - uv.y ());
-      colours[i] = colourOf (triangles[t][2 - i]);
+      colours[i] = vectorOf (fields, cloud.row (triangles[t][2 - i]));
     }
     const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
     if (a.x () * b.y () - a.y () * b.x () > 0.0)

@@ -22,13 +22,13 @@ shiftLine (const char* begin, const Cloud& cloud)
 void
 printNormal (AtomicFile& file, const FieldTriple& fields, std::size_t row)
 {
-  const bool are_finite = std::all_of (fields.begin (), fields.end (), [row] (const Field* field) {
-    return std::isfinite (field->asDouble (row));
+  Eigen::Vector3d normal = vectorOf (fields, row);
+  if (!normal.allFinite ())
+    normal.setZero ();
+  visitType (fields[0]->type, [&] (auto tag) {
+    for (const double coordinate : normal)
+      file.print (" ", static_cast<decltype (tag)> (coordinate));
   });
-  for (const Field* field : fields)
-    visitType (field->type, [&] (auto value) {
-      file.print (" ", are_finite ? field->value<decltype (value)> (row) : value);
-    });
 }
 
 /// Calls write (coordinate) with the coordinates of a point as floats or doubles, as they are written.
@@ -57,9 +57,8 @@ writeObj (AtomicFile& file, const std::filesystem::path& path, const Cloud& clou
     file.print ("v");
     forCoordinates (cloud, i, [&file] (auto number) { file.print (" ", number); });
     if (colors[0])
-      for (const Field* channel : colors)
-        file.print (" ",
-                    static_cast<float> (channel->value<std::uint8_t> (cloud.row (i))) / 255.0F);
+      for (const double channel : vectorOf (colors, cloud.row (i)))
+        file.print (" ", static_cast<float> (channel) / 255.0F);
     file.print ("\n");
   }
   if (normals[0])
@@ -101,8 +100,8 @@ writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
     if (normals[0])
       printNormal (file, normals, cloud.row (i));
     if (colors[0]) {
-      for (const Field* channel : colors)
-        file.print (" ", channel->value<std::uint8_t> (cloud.row (i)));
+      for (const double channel : vectorOf (colors, cloud.row (i)))
+        file.print (" ", channel);
       file.print (" 255"); // opaque
     }
     file.print ("\n");
@@ -219,11 +218,11 @@ isLong (ScalarType type)
 
 /// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
 /// ...
-/// \return losses of the format
-std::vector<std::string>
-writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+/// \param losses of the format are added
+void
+writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
+          std::vector<std::string>& losses)
 {
-  std::vector<std::string> losses;
   file.print ("ply\nformat binary_little_endian 1.0\ncomment ", COMMENT, "\n",
               shiftLine ("comment shift ", cloud), "element vertex ", cloud.size (), "\n");
   for (const char* axis : {"x", "y", "z"})
@@ -257,7 +256,6 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
     for (const std::uint32_t corner : triangle)
       file.writeNumber (corner, ByteOrder::LITTLE);
   }
-  return losses;
 }
 
 } // namespace
@@ -277,17 +275,9 @@ countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
 }
 
 std::vector<std::string>
-writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, MeshFormat format, const TextureCoordinates* texture)
+writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangles& triangles,
+           MeshFormat format, OutputFiles& files, const TextureCoordinates* texture)
 {
-  if (texture != nullptr && format != MeshFormat::OBJ) {
-    Triangles renumbered = triangles;
-    const Cloud doubled = doubleSeamPoints (cloud, *texture, renumbered);
-    if (format == MeshFormat::PLY)
-      return writePly (file, doubled, renumbered);
-    writeVtk (file, doubled, renumbered, true);
-    return {};
-  }
   const char* const single = format == MeshFormat::STL   ? "STL"
                              : format == MeshFormat::GLB ? "glTF"
                                                          : nullptr;
@@ -298,29 +288,36 @@ writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& clo
                         std::to_string (triangles.size ()) +
                         " triangles have two equal corners; subtract an origin with --shift, or "
                         "write .vtk, .ply, .obj or .off");
-  switch (format) {
-  case MeshFormat::VTK:
-    writeVtk (file, cloud, triangles, false);
-    break;
-  case MeshFormat::PLY:
-    return writePly (file, cloud, triangles);
-  case MeshFormat::OBJ:
-    writeObj (file, path, cloud, triangles, texture);
-    break;
-  case MeshFormat::OFF:
-    writeOff (file, cloud, triangles);
-    break;
-  case MeshFormat::STL:
-    writeStl (file, cloud, triangles);
-    break;
-  case MeshFormat::GLB:
-    writeGlb (file, cloud, triangles);
-    break;
+  AtomicFile& file = files.emplace_back (path);
+  std::vector<std::string> losses;
+  const auto write = [&] (const Cloud& vertices, const Triangles& faces) {
+    switch (format) {
+    case MeshFormat::VTK:
+      return writeVtk (file, vertices, faces, texture != nullptr);
+    case MeshFormat::PLY:
+      return writePly (file, vertices, faces, losses);
+    case MeshFormat::OBJ:
+      return writeObj (file, path, vertices, faces, texture);
+    case MeshFormat::OFF:
+      return writeOff (file, vertices, faces);
+    case MeshFormat::STL:
+      return writeStl (file, vertices, faces);
+    case MeshFormat::GLB:
+      return writeGlb (file, vertices, faces);
+    }
+  };
+  if (texture != nullptr && format != MeshFormat::OBJ) {
+    Triangles renumbered = triangles;
+    write (doubleSeamPoints (cloud, *texture, renumbered), renumbered);
   }
-  if (single == nullptr || cloud.single_precision)
-    return {};
-  return {std::string (single) + " holds single precision only: the coordinates were rounded; "
-                                 "write .vtk or .ply to keep them"};
+  else
+    write (cloud, triangles);
+  if (single != nullptr && !cloud.single_precision)
+    losses.push_back (std::string (single) +
+                      " holds single precision only: the coordinates were rounded; write .vtk or "
+                      ".ply to keep them");
+  file.close ();
+  return losses;
 }
 
 } // namespace pcl::floater

@@ -41,19 +41,17 @@ meshFormatOf (const std::filesystem::path& path)
   return formatOf (path, MESH_FORMATS);
 }
 
-/// Writes the mesh. All coordinates must be finite. All formats but STL tell the shift in a
-/// comment. As far as the format allows, vertex k is point k of the cloud with all its fields, and
-/// every number reads back exactly.
-/// \param path for messages; the bytes are written to `file`
+/// Writes the mesh under a temporary name. All coordinates must be finite. All formats but STL tell
+/// the shift in a comment. As far as the format allows, vertex k is point k of the cloud with all
+/// its fields, and every number reads back exactly.
 /// \param texture not for STL, OFF and GLB; if it is not nullptr, the texture coordinates are written
 ///   as well: as vt of OBJ, s and t of PLY, TCoords of VTK. In PLY and VTK, points on seams are
 ///   doubled (doubleSeamPoints)
 /// \return losses of the format, one sentence each
 /// \throws WriteError
 std::vector<std::string>
-writeMesh (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-           const Triangles& triangles, MeshFormat format,
-           const TextureCoordinates* texture = nullptr);
+writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangles& triangles,
+           MeshFormat format, OutputFiles& files, const TextureCoordinates* texture = nullptr);
 
 /// The coordinates, little endian.
 inline void

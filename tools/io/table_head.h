@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -74,31 +75,94 @@ struct TableHead
   std::string_view last_line; ///< the last of them, which may have been names
 };
 
+/// Without blanks and quotes around.
+inline std::string_view
+trim (std::string_view text)
+{
+  const auto isOuter = [] (char c) { return TextScanner::isBlank (c) || c == '"'; };
+  while (!text.empty () && isOuter (text.front ()))
+    text.remove_prefix (1);
+  while (!text.empty () && isOuter (text.back ()))
+    text.remove_suffix (1);
+  return text;
+}
+
 /// Cuts a line into columns, without blanks and quotes around them. An empty last one is left out.
 /// \return whether it was
-bool
-splitColumns (std::string_view line, char separator, Words& columns);
+inline bool
+splitColumns (std::string_view line, char separator, Words& columns)
+{
+  columns.clear ();
+  const bool by_blanks = separator == ' ';
+  for (std::size_t first = 0, end = 0; first <= line.size (); first = end + 1) {
+    end = first;
+    while (end < line.size () &&
+           !(by_blanks ? TextScanner::isBlank (line[end]) : line[end] == separator))
+      ++end;
+    if (!by_blanks || end > first)
+      columns.push_back (trim (line.substr (first, end - first)));
+  }
+  const bool ends_empty = !by_blanks && columns.back ().empty ();
+  if (ends_empty)
+    columns.pop_back ();
+  return ends_empty;
+}
 
 /// Parses a column as a number; an empty one is NaN.
 /// \return false if it is neither
-bool
-parseColumn (std::string_view column, bool has_decimal_comma, double& number);
+inline bool
+parseColumn (std::string_view column, bool has_decimal_comma, double& number)
+{
+  number = std::numeric_limits<double>::quiet_NaN ();
+  const std::size_t comma = has_decimal_comma ? column.find (',') : std::string_view::npos;
+  if (comma == std::string_view::npos)
+    return column.empty () || parseNumber (column, number);
+  std::string with_point (column);
+  with_point[comma] = '.';
+  return parseNumber (std::string_view (with_point), number);
+}
 
 /// The word without a unit behind an underscore: "z" of "z_m".
-std::string_view
-withoutUnit (std::string_view name);
+inline std::string_view
+withoutUnit (std::string_view name)
+{
+  const std::size_t at = std::min (name.rfind ('_'), name.size ());
+  for (const std::string_view unit :
+       {"_m", "_mm", "_cm", "_km", "_ft", "_deg", "_meters", "_metres"})
+    if (name.substr (at) == unit)
+      return name.substr (0, at);
+  return name;
+}
 
 /// The line without what makes it a comment: #, //, %; nothing if it is none.
-std::optional<std::string_view>
-commentText (std::string_view line);
+inline std::optional<std::string_view>
+commentText (std::string_view line)
+{
+  line = trim (line);
+  for (const std::string_view mark : {"#", "//", "%"})
+    if (line.substr (0, mark.size ()) == mark) {
+      while (!line.empty () &&
+             (line.front () == mark.front () || TextScanner::isBlank (line.front ())))
+        line.remove_prefix (1);
+      return line;
+    }
+  return std::nullopt;
+}
 
 /// Whether the line begins or ends a scan, as in some .pts files.
-bool
-isBlockMark (std::string_view line);
+inline bool
+isBlockMark (std::string_view line)
+{
+  return isWord (trim (line), "begin") || isWord (trim (line), "end");
+}
 
 /// The only word of a line, if it is a whole number.
-std::optional<std::uint64_t>
-countOf (std::string_view line);
+inline std::optional<std::uint64_t>
+countOf (std::string_view line)
+{
+  std::uint64_t count = 0;
+  return parseNumber (trim (line), count) ? std::optional (count) : std::nullopt;
+}
 
 /// Reads up to the first point, and that line.
 /// \return its text

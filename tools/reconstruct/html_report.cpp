@@ -54,24 +54,6 @@ boxAround (const std::vector<Eigen::Vector3d>& positions)
   return box;
 }
 
-/// The positions of the vertices of triangles, which are renumbered in their order.
-template <typename Position>
-std::vector<Eigen::Vector3d>
-takeVertices (std::size_t points, const Position& positionOf, Triangles& triangles)
-{
-  std::vector<Index> number (points, NONE);
-  std::vector<Eigen::Vector3d> positions;
-  for (Triangle& triangle : triangles)
-    for (Index& p : triangle) {
-      if (number[p] == NONE) {
-        number[p] = static_cast<Index> (positions.size ());
-        positions.push_back (positionOf (p));
-      }
-      p = number[p];
-    }
-  return positions;
-}
-
 /// The height of each vertex above the mean of those that it is connected to, in spacings.
 std::vector<float>
 heights (const Drawing& drawing, int threads)
@@ -189,8 +171,10 @@ thin (Drawing& drawing, std::size_t most)
     flaw.triangles.erase (std::remove (flaw.triangles.begin (), flaw.triangles.end (), NONE),
                           flaw.triangles.end ());
   }
-  drawing.positions = takeVertices (
-      joined.size (), [&drawing] (Index p) { return drawing.positions[p]; }, kept);
+  std::vector<Eigen::Vector3d> positions;
+  for (const Index p : takeUsed (joined.size (), kept))
+    positions.push_back (drawing.positions[p]);
+  drawing.positions = std::move (positions);
   drawing.triangles = std::move (kept);
 }
 
@@ -202,8 +186,8 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
   if (result.triangles.empty ())
     return drawing;
   drawing.triangles = result.triangles;
-  drawing.positions = takeVertices (
-      cloud.size (), [&cloud] (Index p) { return cloud.position (p); }, drawing.triangles);
+  for (const Index p : takeUsed (cloud.size (), drawing.triangles))
+    drawing.positions.push_back (cloud.position (p));
   const Eigen::AlignedBox3d box = boxAround (drawing.positions);
   drawing.centre = box.center ();
   if (const double size = box.sizes ().maxCoeff (); size > 0.0)

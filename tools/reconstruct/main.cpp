@@ -190,10 +190,8 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
                           const Triangles& triangles, std::optional<MeshFormat> format,
                           const TextureCoordinates* texture = nullptr) {
-    AtomicFile& file = files.emplace_back (path);
-    for (std::string& loss : writeMesh (file, path, vertices, triangles, *format, texture))
+    for (std::string& loss : writeMesh (path, vertices, triangles, *format, files, texture))
       result.report.warnings.push_back (std::move (loss));
-    file.close ();
   };
   leaveOut (cloud, result.report.non_finite);
   if (line.compute_normals)

@@ -73,9 +73,7 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
         "nz); leave the option out, or add them");
   std::vector<Eigen::Vector3f> normals (cloud.size ());
   for (std::size_t p = 0; p < normals.size (); ++p)
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      normals[p][axis] =
-          static_cast<float> (fields[static_cast<std::size_t> (axis)]->asDouble (cloud.row (p)));
+    normals[p] = vectorOf (fields, cloud.row (p)).cast<float> ();
   giveBackMappedFiles ();
   if (std::none_of (normals.begin (), normals.end (), [] (const Eigen::Vector3f& normal) {
         return normal.allFinite () && !normal.isZero (0.0F);
