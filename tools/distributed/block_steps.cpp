@@ -95,7 +95,7 @@ takeIn (const std::vector<Index>& rows, const CsrLists& lists, StoredCloud& clou
       sortUnique (missing);
       const Eigen::Vector3d& here = block.positions[block.placeOf (rows[i])];
       double farthest = 0.0;
-      for (const Eigen::Vector3d& there : cloud.gather (missing))
+      for (const Eigen::Vector3d& there : cloud.positions (missing))
         farthest = std::max (farthest, (there - here).norm ());
       search.watch ().looked (here, farthest);
     }
@@ -139,14 +139,13 @@ StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
 void
 neighborsStep (const StepContext& context, std::size_t block)
 {
-  StoredCloud cloud (context, POINTS);
-  const Index first = cloud.ranges ().first (block), last = cloud.ranges ().last (block);
-  if (first == last)
+  StoredCloud cloud (context, {});
+  if (!cloud.hasPoints (block))
     return put (context, "neighbors", block);
   BlockSearch search (cloud.cutter (), block, context.run, HALO);
   const CsrLists neighbors =
-      findNearestOfBlock (search, Rows::range (first, last), cloud.ranges ().points (),
-                          context.options.neighbors.k, context.run);
+      findNearestOfBlock (search, Rows::range (cloud.first (block), cloud.last (block)),
+                          cloud.points (), context.options.neighbors.k, context.run);
   put (context, "neighbors", block, {{"ids", neighbors.ids}});
 }
 
@@ -156,11 +155,10 @@ outliersStep (const Job& job, FolderStore& store, const Plan& plan)
   const StepContext context (store, plan, job.line, job.join_threads);
   std::vector<Index> outliers;
   if (context.options.remove_outliers) {
-    const BlockRanges ranges (context.plan, context.plan.points);
     std::vector<Index> gross_outliers;
     Points points = readPoints (context.store, POINTS, context.plan, gross_outliers);
-    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (ranges.points ()));
-    const CsrLists neighbors = StoredNeighbors (context, {}, ranges).nearest (all);
+    const CsrLists neighbors =
+        StoredCloud (context, {}).nearest (pointsFrom (0, static_cast<Index> (points.size ())));
     outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
     if (!outliers.empty ()) {
       removePoints (points, outliers);
@@ -175,21 +173,20 @@ outliersStep (const Job& job, FolderStore& store, const Plan& plan)
 void
 planesStep (const StepContext& context, std::size_t block)
 {
-  OwnBlock own (context, block);
-  if (own.isEmpty ())
+  const std::vector<Index> outliers = readOutliers (context);
+  StoredCloud cloud (context, outliers);
+  if (!cloud.hasPoints (block))
     return put (context, "planes", block);
   CsrLists beside_lists;
   std::vector<float> beside_reach, spacing;
   std::vector<Eigen::Vector3f> normals;
-  StoredCloud& cloud = own.cloud;
   BlockSearch search (cloud.cutter (), block, context.run, PLANE_HALO);
-  const std::vector<Index> points = pointsFrom (own.first, own.last);
+  const Index first = cloud.first (block), last = cloud.last (block);
+  const std::vector<Index> points = cloud.own (block);
   const CsrLists nearest =
-      own.outliers.empty ()
-          ? StoredNeighbors (context, own.outliers, cloud.ranges ()).nearest (points)
-          : findNearestOfBlock (search, Rows::range (own.first, own.last),
-                                cloud.ranges ().points (), context.options.neighbors.k,
-                                context.run);
+      outliers.empty () ? cloud.nearest (points)
+                        : findNearestOfBlock (search, Rows::range (first, last), cloud.points (),
+                                              context.options.neighbors.k, context.run);
   takeIn (points, nearest, cloud, search);
   do {
     const PointBlock& local = search.block ();
@@ -222,7 +219,7 @@ planesStep (const StepContext& context, std::size_t block)
   } while (search.widen ());
   if (cloud.file ().count ("normals") > 0) {
     std::vector<Eigen::Vector3f> given;
-    cloud.file ().append ("normals", own.first, own.last, given);
+    cloud.file ().append ("normals", first, last, given);
     for (std::size_t i = 0; i < given.size (); ++i)
       if (!given[i].isZero (0.0F))
         normals[i] = given[i];
@@ -232,7 +229,7 @@ planesStep (const StepContext& context, std::size_t block)
                      {"beside_reach", beside_reach},
                      {"spacing", spacing},
                      {"normals", normals}};
-  if (!own.outliers.empty ())
+  if (!outliers.empty ())
     arrays.emplace_back ("ids", nearest.ids);
   put (context, "planes", block, arrays);
 }
@@ -240,23 +237,20 @@ planesStep (const StepContext& context, std::size_t block)
 void
 starsStep (const StepContext& context, std::size_t block)
 {
-  OwnBlock own_block (context, block);
-  if (own_block.isEmpty ())
+  StoredCloud cloud (context, readOutliers (context));
+  if (!cloud.hasPoints (block))
     return put (context, "stars", block);
-  StoredCloud& cloud = own_block.cloud;
-  const Index first = own_block.first, last = own_block.last;
   const StarSettings settings = starSettings ({context.options, context.limits, context.run});
-  StoredNeighbors stored (context, own_block.outliers, cloud.ranges ());
-  const std::vector<Index> own = pointsFrom (first, last);
-  const CsrLists beside_lists = stored.beside (own);
-  CsrLists all_lists = stored.nearest (own);
+  const std::vector<Index> own = cloud.own (block);
+  const CsrLists beside_lists = cloud.gatherLists ("planes", "beside", own);
+  CsrLists all_lists = cloud.nearest (own);
   appendRows (beside_lists, all_lists);
-  const std::vector<float> own_spacing = stored.planes ().gather<float> ("spacing", own);
-  const std::vector<float> own_reach = stored.planes ().gather<float> ("beside_reach", own);
+  const std::vector<float> own_spacing = cloud.gather<float> ("planes", "spacing", own);
+  const std::vector<float> own_reach = cloud.gather<float> ("planes", "beside_reach", own);
   std::vector<Index> centres =
-      areaSampleCentres (cloud.ranges ().points (), context.limits.view.search.samples);
+      areaSampleCentres (cloud.points (), context.limits.view.search.samples);
   centres.erase (std::remove_if (centres.begin (), centres.end (),
-                                 [&] (Index p) { return p < first || p >= last; }),
+                                 [&] (Index p) { return p < own.front () || p > own.back (); }),
                  centres.end ());
 
   BlockSearch search (cloud.cutter (), block, context.run, STAR_HALO);
@@ -269,7 +263,7 @@ starsStep (const StepContext& context, std::size_t block)
     const PointBlock& local = search.block ();
     const std::vector<Eigen::Vector3d>& positions = local.positions;
     const std::vector<Eigen::Vector3f> normals =
-        stored.planes ().gather<Eigen::Vector3f> ("normals", local.points);
+        cloud.gather<Eigen::Vector3f> ("planes", "normals", local.points);
     const CsrLists neighbors = toPlaces (local, own, all_lists);
     const Index own_first = search.ownFirst ();
     BesideLines beside;

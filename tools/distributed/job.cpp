@@ -37,8 +37,7 @@ class StoredStages : public KnownStages
 public:
   /// \param context must outlive this
   explicit StoredStages (const StepContext& context)
-      : context_ (context), outliers_ (readOutliers (context)),
-        ranges_ (context.plan, context.plan.points - outliers_.size ())
+      : context_ (context), outliers_ (readOutliers (context))
   {
   }
 
@@ -57,23 +56,23 @@ public:
 
   LocalPlanes planes () override
   {
-    const std::vector<Index> all = allPoints ();
-    StoredNeighbors stored (context_, outliers_, ranges_);
+    StoredCloud cloud (context_, outliers_);
+    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (cloud.points ()));
     LocalPlanes planes;
-    planes.neighbors = stored.nearest (all);
-    appendRows (stored.beside (all), planes.neighbors);
-    planes.spacing = stored.planes ().gather<float> ("spacing", all);
-    planes.normals = stored.planes ().gather<Eigen::Vector3f> ("normals", all);
+    planes.neighbors = cloud.nearest (all);
+    appendRows (cloud.gatherLists ("planes", "beside", all), planes.neighbors);
+    planes.spacing = cloud.gather<float> ("planes", "spacing", all);
+    planes.normals = cloud.gather<Eigen::Vector3f> ("planes", "normals", all);
     return planes;
   }
 
   std::vector<AreaSample> areaSamples () override
   {
-    Slices stars (context_, ranges_, "stars");
+    StoredCloud cloud (context_, outliers_);
     std::vector<AreaSample> samples;
-    for (std::size_t block = 0; block < ranges_.blocks (); ++block)
-      if (ranges_.first (block) < ranges_.last (block)) {
-        const auto its = stars.file (block).read<AreaSample> ("areas");
+    for (std::size_t block = 0; block < context_.plan.blocks; ++block)
+      if (cloud.hasPoints (block)) {
+        const auto its = cloud.slice ("stars", block).read<AreaSample> ("areas");
         samples.insert (samples.end (), its.begin (), its.end ());
       }
     return samples;
@@ -81,26 +80,20 @@ public:
 
   Stars begunStars () override
   {
-    const std::vector<Index> all = allPoints ();
-    Slices stored (context_, ranges_, "stars");
+    StoredCloud cloud (context_, outliers_);
+    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (cloud.points ()));
     Stars stars;
-    stars.neighbors = stored.gatherLists ("stars", all);
-    stars.far_neighbors = stored.gatherLists ("far", all);
-    stars.open = stored.gather<std::uint8_t> ("open", all);
-    stars.normals = stored.gather<Eigen::Vector3f> ("normals", all);
-    stars.reach = stored.gather<float> ("reach", all);
+    stars.neighbors = cloud.gatherLists ("stars", "stars", all);
+    stars.far_neighbors = cloud.gatherLists ("stars", "far", all);
+    stars.open = cloud.gather<std::uint8_t> ("stars", "open", all);
+    stars.normals = cloud.gather<Eigen::Vector3f> ("stars", "normals", all);
+    stars.reach = cloud.gather<float> ("stars", "reach", all);
     return stars;
   }
 
 private:
-  std::vector<Index> allPoints () const
-  {
-    return pointsFrom (0, static_cast<Index> (ranges_.points ()));
-  }
-
   const StepContext& context_;
   std::vector<Index> outliers_;
-  BlockRanges ranges_; // without outliers
 };
 
 // What decides the result, as text.

@@ -3,42 +3,83 @@
 #include "stored_cloud.h"
 
 namespace pcl::floater {
-ArrayFile&
-Slices::file (std::size_t block)
+StoredCloud::StoredCloud (const StepContext& context, const std::vector<Index>& outliers)
+    : context_ (context), neighbors_step_ (outliers.empty () ? "neighbors" : "planes"),
+      file_ (openArrays (context.store, outliers.empty () ? POINTS : POINTS_LEFT, context.plan)),
+      points_ (file_.count ("positions")),
+      cutter_ (
+          points_, file_.read<Box> ("groups"), context.plan.blocks,
+          [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
+            file_.append ("buckets", first, last, buckets);
+          },
+          [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
+            file_.append ("positions", first, last, positions);
+          })
 {
-  const auto known = files_.find (block);
-  if (known != files_.end ())
-    return known->second;
-  return files_
-      .emplace (block, openArrays (context_.store, blockFile (step_, block), context_.plan))
-      .first->second;
+}
+
+std::vector<Eigen::Vector3d>
+StoredCloud::positions (const std::vector<Index>& points)
+{
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve (points.size ());
+  forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
+    file_.append ("positions", first (block) + begin, first (block) + end, positions);
+  });
+  return positions;
+}
+
+ArrayFile&
+StoredCloud::slice (const char* step, std::size_t block)
+{
+  const std::string name = blockFile (step, block);
+  const auto known = slices_.find (name);
+  return known != slices_.end ()
+             ? known->second
+             : slices_.emplace (name, openArrays (context_.store, name, context_.plan))
+                   .first->second;
 }
 
 CsrLists
-Slices::gatherLists (const std::string& array, const std::vector<Index>& points)
+StoredCloud::gatherLists (const char* step, const std::string& array,
+                          const std::vector<Index>& points)
 {
   CsrLists all;
   all.offsets.reserve (points.size () + 1);
   all.offsets.push_back (0);
   std::size_t entries = 0; // of whole blocks, which are most if all points are asked for
-  ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
-    if (last - first == ranges_.last (block) - ranges_.first (block))
-      entries += file (block).count (array);
+  forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
+    if (end - begin == last (block) - first (block))
+      entries += slice (step, block).count (array);
   });
   all.ids.reserve (entries);
-  ranges_.forEachRun (points, [&] (std::size_t block, Index first, Index last) {
-    ArrayFile& its = file (block);
+  forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
+    ArrayFile& its = slice (step, block);
     std::vector<Index> offsets;
-    its.append (array + ".offsets", first, last + std::size_t{1}, offsets);
+    its.append (array + ".offsets", begin, end + std::size_t{1}, offsets);
     its.require (std::is_sorted (offsets.begin (), offsets.end ()));
     const std::size_t before = all.ids.size ();
     requireListed (before + (offsets.back () - offsets.front ()));
     its.append (array, offsets.front (), offsets.back (), all.ids);
-    its.requireBelow (all.ids, ranges_.points (), before);
+    its.requireBelow (all.ids, points_, before);
     for (auto offset = offsets.begin () + 1; offset != offsets.end (); ++offset)
       all.offsets.push_back (static_cast<Index> (before) + *offset - offsets.front ());
   });
   return all;
+}
+
+CsrLists
+StoredCloud::nearest (const std::vector<Index>& points)
+{
+  const std::size_t width =
+      std::min<std::size_t> (static_cast<std::size_t> (context_.options.neighbors.k), points_ - 1);
+  requireListed (points.size () * width);
+  CsrLists lists;
+  lists.ids = gather<Index> (neighbors_step_, "ids", points, width);
+  lists.offsets.resize (points.size () + 1);
+  for (std::size_t i = 0; i <= points.size (); ++i)
+    lists.offsets[i] = static_cast<Index> (i * width);
+  return lists;
 }
 
 void

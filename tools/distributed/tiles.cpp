@@ -47,9 +47,9 @@ findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, FolderSt
   }
   ArrayFile file = openArrays (store, POINTS, plan);
   const std::vector<Index> cloud_index = file.read<Index> ("cloud_index");
-  const BlockRanges ranges (plan, plan.points);
-  for (std::uint32_t block = 0; block < ranges.blocks (); ++block)
-    for (Index p = ranges.first (block); p < ranges.last (block); ++p)
+  for (std::uint32_t block = 0; block < plan.blocks; ++block)
+    for (Index p = BlockCutter::firstOf (block, plan.blocks, plan.points);
+         p < BlockCutter::firstOf (block + 1, plan.blocks, plan.points); ++p)
       tile_of[cloud.pointOf (cloud_index[p])] = block;
   for (const auto& [repeated, standing] : file.read<std::array<Index, 2>> ("duplicates"))
     tile_of[cloud.pointOf (repeated)] = tile_of[cloud.pointOf (standing)];

@@ -285,16 +285,6 @@ leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what)
     cloud.left_out[row] = cloud.left_out[row] || rows[row];
 }
 
-void
-leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows)
-{
-  for (const std::uint32_t row : rows)
-    if (cloud.positionOfRow (row).allFinite ()) {
-      cloud.left_out.resize (cloud.rows, false);
-      cloud.left_out[row] = true;
-    }
-}
-
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 {

@@ -324,10 +324,6 @@ shiftText (const Cloud& cloud);
 void
 leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what);
 
-/// Leaves out the rows of the list that have finite coordinates.
-void
-leaveOut (Cloud& cloud, const std::vector<std::uint32_t>& rows);
-
 /// Takes the rows that were left out, and points with a NaN or infinite coordinate, out of the
 /// cloud, and renumbers the triangles, which must not use such points. No values are moved or
 /// copied.

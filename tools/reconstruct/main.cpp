@@ -193,7 +193,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     for (std::string& loss : writeMesh (path, vertices, triangles, *format, files, texture))
       result.report.warnings.push_back (std::move (loss));
   };
-  leaveOut (cloud, result.report.non_finite);
+  cloud.left_out.resize (cloud.rows, false);
+  for (const std::uint32_t row : result.report.non_finite) // finite: pixels without a return
+    cloud.left_out[row] = cloud.left_out[row] || cloud.positionOfRow (row).allFinite ();
   if (line.compute_normals)
     replaceNormals (cloud, result.triangles, line.options.threads);
   if (!line.parameterization.empty ()) {

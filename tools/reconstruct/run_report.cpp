@@ -20,28 +20,6 @@ fileName (const std::filesystem::path& path)
   return path.empty () ? Json () : Json (path.string ());
 }
 
-Json
-memoryLimitJson (const CommandLine& line)
-{
-  if (line.max_memory == 0)
-    return {};
-  return {{"bytes", line.max_memory},
-          {"scratch", fileName (line.scratch)},
-          {"scratch_peak_bytes", scratchUse ().peak}};
-}
-
-Json
-textureJson (const CommandLine& line, const RunFigures& run)
-{
-  const TextureCoordinates& texture = run.texture;
-  if (texture.status != RunStatus::SUCCESS)
-    return {};
-  return {{"file", fileName (line.texture)}, {"charts", texture.chart_count},
-          {"stretch", texture.stretch},      {"largest_stretch", texture.largest_stretch},
-          {"area_used", texture.area_used},  {"seam_length", texture.seam_length},
-          {"gutter", texture.gutter},        {"flipped", texture.flipped}};
-}
-
 /// Name of the status, or "REFUSED" if --strict refuses the mesh.
 std::string
 outcomeName (const Report& report, const RunFigures& run)
@@ -98,9 +76,20 @@ reportJson (const CommandLine& line, const Report& report, const RunFigures& run
   all["seconds"]["reconstruction"] = run.reconstruct_seconds;
   if (run.texture.status != RunStatus::NOT_RUN)
     all["seconds"]["texture"] = run.texture_seconds;
-  all["texture"] = is_ok ? textureJson (line, run) : Json ();
+  all["texture"] = nullptr;
+  if (const TextureCoordinates& texture = run.texture;
+      is_ok && texture.status == RunStatus::SUCCESS)
+    all["texture"] = {
+        {"file", fileName (line.texture)}, {"charts", texture.chart_count},
+        {"stretch", texture.stretch},      {"largest_stretch", texture.largest_stretch},
+        {"area_used", texture.area_used},  {"seam_length", texture.seam_length},
+        {"gutter", texture.gutter},        {"flipped", texture.flipped}};
   all["peak_memory_bytes"] = peakMemory ();
-  all["memory_limit"] = memoryLimitJson (line);
+  all["memory_limit"] = nullptr;
+  if (line.max_memory > 0)
+    all["memory_limit"] = {{"bytes", line.max_memory},
+                           {"scratch", fileName (line.scratch)},
+                           {"scratch_peak_bytes", scratchUse ().peak}};
   all["loop"] = report.loop;
   all["unused"] = report.unused;
   all["outliers"] = report.outliers;
@@ -166,29 +155,6 @@ summaryLine (const CommandLine& line, const Report& report, const RunFigures& ru
                 {"output", is_ok ? fileName (line.output) : Json ()}});
 }
 
-// Prints the warnings; without --verbose the first ones, which matter most.
-void
-printWarnings (const Report& report, bool is_verbose)
-{
-  constexpr std::size_t MOST = 3;
-  const std::size_t count = report.warnings.size ();
-  const std::size_t shown = is_verbose ? count : std::min (count, MOST);
-  for (std::size_t i = 0; i < shown; ++i)
-    std::fprintf (stderr, "warning: %s\n", printable (report.warnings[i]).c_str ());
-  if (shown < count)
-    std::fprintf (stderr, "%s more: --verbose prints them\n",
-                  counted (count - shown, "warning").c_str ());
-}
-
-void
-printVerdict (std::FILE* to, const Verdict& verdict)
-{
-  std::fprintf (to, "verdict    %s%s%s\n", qualityName (verdict.value),
-                verdict.cause.empty () ? "" : ": ", verdict.cause.c_str ());
-  if (!verdict.remedy.empty ())
-    std::fprintf (to, "           what helps: %s\n", verdict.remedy.c_str ());
-}
-
 /// Prints the decisions that a run is least sure of.
 void
 printUnsure (std::FILE* to, const Report& report)
@@ -248,7 +214,11 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
 {
   const Statistics& statistics = report.statistics;
   constexpr double MEGABYTE = 1e6;
-  printVerdict (to, report.verdict);
+  const Verdict& verdict = report.verdict;
+  std::fprintf (to, "verdict    %s%s%s\n", qualityName (verdict.value),
+                verdict.cause.empty () ? "" : ": ", verdict.cause.c_str ());
+  if (!verdict.remedy.empty ())
+    std::fprintf (to, "           what helps: %s\n", verdict.remedy.c_str ());
   for (const std::string& note : run.notes)
     std::fprintf (to, "input      %s\n", note.c_str ());
   std::fprintf (
@@ -323,8 +293,15 @@ printOutcome (const CommandLine& line, const Report& report, const RunFigures& f
   const bool is_ok = report.status == RunStatus::SUCCESS && !figures.is_refused;
   const bool has_mesh = isStandardStream (line.output); // the standard output takes nothing else
   std::FILE* const to = has_mesh ? stderr : stdout;
-  if (figures.is_refused || !line.quiet)
-    printWarnings (report, line.verbose || figures.is_refused);
+  constexpr std::size_t FEW = 3; // the first warnings matter most
+  const std::size_t count = report.warnings.size ();
+  const bool shows_all = line.verbose || figures.is_refused;
+  const std::size_t shown = shows_all ? count : line.quiet ? 0 : std::min (count, FEW);
+  for (std::size_t i = 0; i < shown; ++i)
+    std::fprintf (stderr, "warning: %s\n", printable (report.warnings[i]).c_str ());
+  if (shown < count && !line.quiet)
+    std::fprintf (stderr, "%s more: --verbose prints them\n",
+                  counted (count - shown, "warning").c_str ());
   if (!is_ok) // the warnings may tell why
     std::fprintf (stderr, "%s: cannot reconstruct %s: %s (%s)\n", line.program,
                   printable (inputName (line.input)).c_str (), printable (report.message).c_str (),
