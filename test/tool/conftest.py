@@ -9,11 +9,13 @@ import subprocess
 import tempfile
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from files import json_of, make_sample, pcd_text, read_mesh
 
-TOOL, READ_CLOUD, PCL_FILES, FAULTS = (os.environ["PCL_FLOATER_" + name]
-                                       for name in ("TOOL", "READ_CLOUD", "PCL_FILES", "FAULTS"))
+BUILD, TOOL, GENERATE, PICTURE, READ_CLOUD, PCL_FILES, FAULTS = (
+    os.environ["PCL_FLOATER_" + name]
+    for name in ("BUILD", "TOOL", "GENERATE", "PICTURE", "READ_CLOUD", "PCL_FILES", "FAULTS"))
 IS_SANITIZED = not FAULTS
 HAS_LZF = os.environ["PCL_FLOATER_HAS_LZF"] == "1"
 OK, USAGE, INPUT, RECONSTRUCTION, OUTPUT, INTERNAL, REFUSED = range(7)  # exit codes
@@ -56,6 +58,19 @@ class Tool:
     def by_pcl(self, *arguments):
         """What a program with PCL prints that writes or reads a file."""
         return subprocess.run([PCL_FILES, *arguments], cwd=self.folder, check=True, capture_output=True, text=True).stdout
+
+    def check(self, code, program, *arguments, says=""):
+        """Runs any program: its exit code, a part of its messages, and no temporary file is left. Returns the messages."""
+        done = subprocess.run([program, *words(arguments)], cwd=self.folder, capture_output=True, text=True, timeout=1800)
+        told = done.stdout + done.stderr
+        assert done.returncode == code and says in told, told
+        assert not [name for name in self.names() if "tmp" in name]
+        return done.stdout
+
+    def pixels(self, name):
+        """Those of a picture, 0 to 255: rows of red, green and blue."""
+        from matplotlib import image
+        return np.round(255 * image.imread(self.path(name))[:, :, :3]).astype(int)
 
     def start(self, arguments, file_limit=None, address_limit=None, environment=None, wrapper=(), **streams):
         def limit():

@@ -135,7 +135,7 @@ def stl_bytes(facets, header=b"a mesh"):
 
 def read_mesh(path):
     """What a file has: points, triangles, colors, normals, is_double, other fields; of a texture coordinates, and of
-    OBJ their indices for each triangle (corners) and the materials."""
+    OBJ their indices for each triangle (corners) and the materials, of PLY the rows of all properties."""
     mesh = SimpleNamespace(is_double=True, colors=None, normals=None, coordinates=None, fields={})
     READERS[path.suffix](path, mesh)
     return mesh
@@ -157,7 +157,7 @@ def read_ply(path, mesh):
 
     def columns(*names):
         return np.stack([rows[name] for name in names], -1) if names[0] in rows.dtype.names else None
-    mesh.points, mesh.triangles, mesh.is_double = columns(*"xyz"), faces["corners"], kind["x"] == "f8"
+    mesh.rows, mesh.points, mesh.triangles, mesh.is_double = rows, columns(*"xyz"), faces["corners"], kind["x"] == "f8"
     mesh.colors, mesh.normals = columns("red", "green", "blue"), columns("nx", "ny", "nz")
     mesh.fields = {name: rows[name] for name in kind.names if name not in "x y z red green blue nx ny nz".split()}
 

@@ -274,8 +274,7 @@ writeStep (const Job& job, FolderStore& store, const Plan& plan)
                        : writeMesh (line.output, cloud, triangles, *line.meshFormat (), files);
   for (const std::string& loss : losses)
     std::fprintf (stderr, "warning: %s\n", printable (loss).c_str ());
-  for (AtomicFile& output : files)
-    output.publish ();
+  publishAll (files);
   return EXIT_OK;
 }
 

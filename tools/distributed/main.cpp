@@ -8,10 +8,8 @@
 #include "messages.h"
 #include "scratch_arrays.h"
 
-#include <array>
 #include <chrono>
 #include <cstdio>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

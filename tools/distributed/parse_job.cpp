@@ -4,8 +4,6 @@
 #include "option_table.h"
 #include "options/check_options.h"
 
-#include <CLI/CLI.hpp>
-
 namespace pcl::floater {
 namespace {
 const char* const DESCRIPTION =

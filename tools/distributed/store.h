@@ -8,14 +8,6 @@
 #include "run_report.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace pcl::floater {
 /// A file of points as it was when the plan was made.

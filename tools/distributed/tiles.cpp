@@ -10,9 +10,7 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -116,7 +114,7 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
     const std::filesystem::path path = folder / tileName (tile);
     OutputFiles files;
     losses = writeMesh (path, part, local, MeshFormat::PLY, files);
-    files.back ().publish ();
+    publishAll (files);
     const FileBytes written (path); // as it is read back
     std::array<char, 9> sum{};
     std::snprintf (sum.data (), sum.size (), "%08lx",

@@ -7,10 +7,8 @@
 
 #include <charconv>
 #include <deque>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -116,5 +114,12 @@ using OutputFiles = std::deque<AtomicFile>;
 /// Writes one of them under a temporary name.
 void
 stageFile (const std::filesystem::path& path, std::string_view bytes, OutputFiles& files);
+
+inline void
+publishAll (OutputFiles& files)
+{
+  for (AtomicFile& file : files)
+    file.publish ();
+}
 
 } // namespace pcl::floater

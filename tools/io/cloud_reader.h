@@ -12,9 +12,6 @@
 #include "cloud.h"
 #include "format.h"
 
-#include <filesystem>
-#include <optional>
-
 namespace pcl::floater {
 /// Cuts a polygon into triangles at its first corner.
 /// \param points of which the corners must be

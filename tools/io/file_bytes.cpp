@@ -12,9 +12,7 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdint>
 #include <mutex>
-#include <string>
 
 namespace pcl::floater {
 namespace {

@@ -51,22 +51,15 @@ spread (ColourImage& image, std::vector<std::uint8_t>& is_painted)
     if (is_painted[i] != 0)
       reached.push_back (i);
   for (std::size_t next = 0; next < reached.size (); ++next) {
-    const std::size_t i = reached[next], x = i % image.width, y = i / image.width;
-    const auto visit = [&] (std::size_t other) {
+    const std::size_t side = image.width, i = reached[next], x = i % side, y = i / side;
+    for (const std::size_t other : {x > 0 ? i - 1 : i, x + 1 < side ? i + 1 : i,
+                                    y > 0 ? i - side : i, y + 1 < side ? i + side : i}) {
       if (is_painted[other] != 0)
-        return;
+        continue;
       is_painted[other] = 1;
       image.pixels[other] = image.pixels[i];
       reached.push_back (other);
-    };
-    if (x > 0)
-      visit (i - 1);
-    if (x + 1 < image.width)
-      visit (i + 1);
-    if (y > 0)
-      visit (i - image.width);
-    if (y + 1 < image.width)
-      visit (i + image.width);
+    }
   }
 }
 
@@ -127,10 +120,8 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
   const FieldTriple fields = colorFields (cloud);
   const auto length = static_cast<double> (side);
   const auto put = [&] (std::size_t x, std::size_t y, const Colour& colour) {
-    std::array<std::uint8_t, 3>& pixel = image.pixels[y * side + x];
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      pixel[channel] =
-          static_cast<std::uint8_t> (std::lround (colour[static_cast<Eigen::Index> (channel)]));
+    Eigen::Map<Eigen::Matrix<std::uint8_t, 3, 1>> (image.pixels[y * side + x].data ()) =
+        colour.array ().round ().matrix ().cast<std::uint8_t> ();
     is_painted[y * side + x] = 1;
   };
   for (std::size_t t = 0; t < triangles.size (); ++t) {
@@ -150,10 +141,10 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
           });
     // Triangles between the middles of pixels leave their colours at their corners.
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto x = std::min (static_cast<std::size_t> (std::max (corners[i].x (), 0.0)),
-                               side - 1),
-                 y = std::min (static_cast<std::size_t> (std::max (corners[i].y (), 0.0)),
-                               side - 1);
+      const auto pixelOf = [side] (double at) {
+        return std::min (static_cast<std::size_t> (std::max (at, 0.0)), side - 1);
+      };
+      const std::size_t x = pixelOf (corners[i].x ()), y = pixelOf (corners[i].y ());
       if (is_painted[y * side + x] == 0)
         put (x, y, colours[i]);
     }

@@ -63,22 +63,18 @@ columnsOfHeader (std::string_view line, char separator)
   return columns;
 }
 
-bool
-haveCoordinates (const std::vector<Column>& columns)
-{
-  return std::count_if (columns.begin (), columns.end (),
-                        [] (const Column& column) { return column.kind <= Z; }) == 3;
-}
-
-/// The first separator that makes it a header with x, y and z; else any.
+/// The columns by the first separator that makes the line a header with x, y and z; empty if none
+/// does.
 std::vector<Column>
 namedColumns (std::string_view line)
 {
-  std::vector<Column> columns;
-  for (const char separator : {';', ',', ' '})
-    if (haveCoordinates (columns = columnsOfHeader (line, separator)))
-      break;
-  return columns;
+  for (const char separator : {';', ',', ' '}) {
+    std::vector<Column> columns = columnsOfHeader (line, separator);
+    if (std::count_if (columns.begin (), columns.end (),
+                       [] (const Column& column) { return column.kind <= Z; }) == 3)
+      return columns;
+  }
+  return {};
 }
 
 /// Whether words are a point with these columns. Marks the columns that are no numbers.
@@ -195,8 +191,10 @@ readHead (TextScanner& scanner, const std::array<std::size_t, 3>& chosen, TableH
     const std::string_view line = scanner.restOfLine ();
     const std::optional<std::string_view> comment = commentText (line);
     const bool is_text = line.size () <= LONGEST;
-    if (std::vector<Column> named;
-        is_text && haveCoordinates (named = namedColumns (comment.value_or (line)))) {
+    std::vector<Column> named;
+    if (is_text)
+      named = namedColumns (comment.value_or (line));
+    if (!named.empty ()) {
       head.columns = std::move (named);
       head.has_names = true;
       head.are_names_comment = comment.has_value ();

@@ -8,16 +8,6 @@
 
 namespace pcl::floater {
 namespace {
-/// Digits of a number without the zeros before the first other one.
-int
-countDigits (std::string_view word)
-{
-  int digits = 0;
-  for (const char c : word.substr (0, word.find_first_of ("eE")))
-    digits += c >= '0' && c <= '9' && (c != '0' || digits > 0) ? 1 : 0;
-  return digits;
-}
-
 void
 note (Column& column, std::string_view word, double value)
 {
@@ -30,9 +20,13 @@ note (Column& column, std::string_view word, double value)
   // Infinities and a zero are what they are in either type.
   const double size = std::abs (value);
   if (column.fits_float && std::isfinite (value) &&
-      static_cast<double> (static_cast<float> (std::min (size, LARGEST_FLOAT))) != size)
+      static_cast<double> (static_cast<float> (std::min (size, LARGEST_FLOAT))) != size) {
+    int digits = 0; // without the zeros before the first other one
+    for (const char c : word.substr (0, word.find_first_of ("eE")))
+      digits += c >= '0' && c <= '9' && (c != '0' || digits > 0) ? 1 : 0;
     column.fits_float = size <= LARGEST_FLOAT && size >= SMALLEST_FLOAT &&
-                        countDigits (word) <= std::numeric_limits<float>::max_digits10;
+                        digits <= std::numeric_limits<float>::max_digits10;
+  }
 }
 
 class Table

@@ -10,8 +10,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <filesystem>
-#include <optional>
 
 namespace pcl::floater {
 /// A mesh with the vertices that its triangles use. They are moved to the origin, and scaled so

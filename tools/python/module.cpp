@@ -11,7 +11,6 @@
 #include <pcl/surface/floater/texture_coordinates.h>
 #include <pcl/surface/floater/vertex_normals.h>
 
-#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

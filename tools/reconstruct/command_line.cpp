@@ -6,8 +6,6 @@
 #include "options/check_options.h"
 #include "scratch_arrays.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <new>
 

@@ -7,17 +7,6 @@
 #include "mesh_writer.h"
 #include "options/option_rows.h"
 
-#include <Eigen/Core>
-#include <pcl/surface/floater/options.h>
-
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 namespace pcl::floater {
 /// Exit codes, as documented in --help.
 enum ExitCode

@@ -292,8 +292,7 @@ run (CommandLine line)
   figures.write_seconds = secondsSince (start);
   progress.show ("");
   printOutcome (line, report, figures);
-  for (AtomicFile& file : files)
-    file.publish ();
+  publishAll (files);
   return exitCode (report, figures);
 }
 

@@ -6,8 +6,6 @@
 #include "run_report.h"
 #include "scratch_arrays.h"
 
-#include <pcl/surface/floater/reconstruct.h>
-
 namespace pcl::floater {
 /// What is wrong with degrees beside metres.
 constexpr const char* DEGREES =

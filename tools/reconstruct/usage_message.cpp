@@ -3,10 +3,7 @@
 // What is wrong with a command line, in words of the user.
 #include "option_table.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
