@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clouds of known surfaces, and the command line tool, whose results are the same."""
-import json
 import os
 import pathlib
 import subprocess
 
 import numpy as np
 import pytest
+from files import json_of, pcd_bytes, read_mesh, sample_of  # of test/tool
 
 
 def torus(around=60, across=24):
@@ -26,31 +26,15 @@ def terrain(side=30):
     return np.stack([x, y, 2 * np.sin(0.3 * x) * np.cos(0.2 * y)], -1).reshape(-1, 3)
 
 
-def write_pcd(path, points):
-    """A binary PCD file with the numbers of the array as they are."""
-    header = (f"VERSION 0.7\nFIELDS x y z\nSIZE {' '.join([str(points.itemsize)] * 3)}\nTYPE F F F\n"
-              f"COUNT 1 1 1\nWIDTH {len(points)}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
-              f"POINTS {len(points)}\nDATA binary\n")
-    path.write_bytes(header.encode() + np.ascontiguousarray(points).tobytes())
-
-
-class Tool:
-    def __init__(self, folder):
-        self.folder = folder
-
-    def __call__(self, points, *arguments):
-        """\\return the triangles, and the report"""
-        cloud, mesh, report = (self.folder / name for name in ("cloud.pcd", "mesh.obj", "report.json"))
-        write_pcd(cloud, points)
-        subprocess.run([os.environ["PCL_FLOATER_TOOL"], "-q", "--report", report, *arguments, cloud, mesh],
-                       check=True)
-        faces = [line.split()[1:] for line in mesh.read_text().splitlines() if line.startswith("f ")]
-        return np.array(faces, dtype=int) - 1, json.loads(report.read_text())
-
-
 @pytest.fixture
 def tool(tmp_path):
-    return Tool(tmp_path)
+    def run(points, *arguments):
+        """\\return the triangles, and the report"""
+        cloud, mesh, report = (tmp_path / name for name in ("cloud.pcd", "mesh.obj", "report.json"))
+        cloud.write_bytes(pcd_bytes(sample_of(points, is_double=points.itemsize == 8)))
+        subprocess.run([os.environ["PCL_FLOATER_TOOL"], "-q", "--report", report, *arguments, cloud, mesh], check=True)
+        return read_mesh(mesh).triangles, json_of(report.read_text())
+    return run
 
 
 @pytest.fixture(scope="session")

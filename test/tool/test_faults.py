@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The pcl_floater authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run that is ended by a signal leaves no files. Each call of the system goes wrong once, in every way that it may:
-the run succeeds or fails with a message, and the output is the new file or the old one, whole."""
+the run succeeds or fails with a message, and the output is the new file or the old one, whole. With --max-memory and
+--scratch, the mesh is the same as without them, and no files are left."""
 import os
 import pathlib
+import re
 import signal
 from types import SimpleNamespace
 
@@ -150,3 +152,36 @@ def test_a_closed_pipe_leaves_nothing(faulty):
     assert faulty.run(faulty.arguments, stdout=writer).code == -signal.SIGPIPE
     os.close(writer)
     assert faulty.names() == {"in.pcd", "out.ply", "flat.vtk"} and faulty.text("out.ply") == OLD
+
+
+def test_same_mesh_near_the_limit(tool):
+    """--max-memory, with the smallest limit that the tool accepts for this cloud."""
+    tool.write("in.pcd", pcd_bytes(make_sample(side=350)))
+    tool.path("scratch").mkdir()
+    megabytes = re.search(r"122500 points; use (\d+)M or more", tool.run("in.pcd none.ply --max-memory 30M").err)[1]
+    assert tool.report("--topology surface")["memory_limit"] is None
+    free = tool.read("out.ply")
+    limited = tool.report(f"--topology surface --max-memory {megabytes}M --scratch scratch")
+    assert tool.read("out.ply") == free and not os.listdir(tool.path("scratch"))
+    used, limit = limited["memory_limit"], int(megabytes) * 10**6
+    assert (used["bytes"], used["scratch"]) == (limit, "scratch")
+    # With a sanitizer, arrays stay in memory.
+    assert IS_SANITIZED or used["scratch_peak_bytes"] > 10**6 and limited["peak_memory_bytes"] < 2 * limit
+
+
+def test_scratch_folder_that_cannot_be_used(tool):
+    """A limit on file sizes stands for a full disk."""
+    tool.write("in.pcd", pcd_bytes(make_sample(side=300)))
+    for folder in ("missing", "in.pcd", "/proc/self"):
+        tool.fail(f"in.pcd out.ply --max-memory 2G --scratch {folder}", OUTPUT,
+                  f"cannot use the scratch folder '{folder}': ")
+    if not IS_SANITIZED:
+        tool.fail("in.pcd out.ply --max-memory 60M", INTERNAL, "no room in the scratch folder '.': File too large",
+                  file_limit=1 << 20)
+
+
+@pytest.mark.skipif(IS_SANITIZED, reason="arrays stay in memory")
+def test_signals_leave_no_scratch_file(tool):
+    tool.write("in.pcd", pcd_bytes(make_sample(side=200)))
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        ends_when(tool, number, lambda process: is_mapped(process, " (deleted)\n"), "--max-memory", "60M")

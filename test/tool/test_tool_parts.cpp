@@ -1,17 +1,197 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clouds whose fields stay in the file, and the time that a run still takes.
+// Parts of the tool: the replaced operators new and delete, scratch files, and the memory limit,
+// whose state is that of the process: once a scratch folder is set, it stays set. With a sanitizer,
+// which has operators of its own, there is nothing to test of them but sizes. And clouds whose fields
+// stay in the file, and the time that a run still takes.
 #include "cloud_reader.h"
+#include "scratch_arrays.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-
-#include <unistd.h>
+#include <new>
+#include <numeric>
+#include <thread>
+#include <vector>
 
 namespace pcl::floater {
 namespace {
+using testing::HasSubstr;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool IS_SANITIZED = true;
+#else
+constexpr bool IS_SANITIZED = false;
+#endif
+
+constexpr std::size_t MEGABYTE = std::size_t{1} << 20U;
+
+constexpr std::size_t LIMIT = 240 * MEGABYTE;
+
+/// From its first test on, large arrays are in a scratch folder.
+struct ScratchArrays : testing::Test
+{
+  static std::string folder ()
+  {
+    static const std::string once = [] {
+      std::string path =
+          (std::filesystem::temp_directory_path () / "pcl_floater_test.XXXXXX").string ();
+      if (!::mkdtemp (path.data ()))
+        throw std::runtime_error ("cannot make a temporary folder");
+      keepLargeArraysIn (path, LIMIT);
+      return path;
+    }();
+    return once;
+  }
+  static void TearDownTestSuite () { std::filesystem::remove (folder ()); }
+  void SetUp () override
+  {
+    if (IS_SANITIZED)
+      GTEST_SKIP () << "the operators are those of the sanitizer";
+    folder ();
+  }
+};
+
+/// Sizes of small and large arrays, none of them a multiple of the page size. All bytes are written.
+void
+useAllForms ()
+{
+  for (const std::size_t size :
+       {std::size_t{1}, std::size_t{100}, LARGE_ARRAY - 1, LARGE_ARRAY + 1, 9 * LARGE_ARRAY + 7}) {
+    SCOPED_TRACE (size);
+    const auto use = [size] (void* pointer, std::size_t alignment) {
+      EXPECT_EQ (reinterpret_cast<std::uintptr_t> (pointer) % alignment, 0U);
+      auto* bytes = static_cast<std::uint8_t*> (pointer);
+      std::iota (bytes, bytes + size, std::uint8_t{1});
+      EXPECT_EQ (bytes[size - 1], static_cast<std::uint8_t> (size));
+      return pointer;
+    };
+    const std::size_t usual = alignof (std::max_align_t), wide = 4096;
+    ::operator delete (use (::operator new (size), usual));
+    ::operator delete[] (use (::operator new[] (size), usual), size);
+    ::operator delete (use (::operator new (size, std::nothrow), usual), size);
+    ::operator delete (use (::operator new (size, std::align_val_t{wide}), wide),
+                       std::align_val_t{wide});
+  }
+  ::operator delete (nullptr);
+  ::operator delete (::operator new (0));
+}
+
+TEST (Operators, AllFormsWithoutAFolder)
+{
+  useAllForms ();
+}
+
+TEST_F (ScratchArrays, AllForms)
+{
+  useAllForms ();
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+TEST_F (ScratchArrays, SizesBeyondAllMemoryAreRefused)
+{
+  const volatile std::size_t most = PTRDIFF_MAX;
+  EXPECT_THROW (::operator delete (::operator new (most)), std::bad_alloc);
+  EXPECT_EQ (::operator new (most - 100, std::nothrow), nullptr);
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+TEST_F (ScratchArrays, FilesHaveNoNamesAndGoWithTheirArrays)
+{
+  {
+    const std::vector<char> small (LARGE_ARRAY / 2, 'a');
+    EXPECT_EQ (scratchUse ().bytes, 0U);
+    const std::vector<char> large (3 * LARGE_ARRAY + 1, 'b');
+    EXPECT_GT (scratchUse ().bytes, 3 * LARGE_ARRAY);
+    std::vector<char> other (5 * LARGE_ARRAY, 'c');
+    EXPECT_GT (scratchUse ().bytes, 8 * LARGE_ARRAY);
+    std::vector<char> ().swap (other);
+    EXPECT_LT (scratchUse ().bytes, 4 * LARGE_ARRAY);
+    EXPECT_TRUE (std::filesystem::is_empty (folder ()));
+  }
+  EXPECT_EQ (scratchUse ().bytes, 0U);
+}
+
+/// In every round each thread adds one to all its numbers, while pages are dropped continuously and
+/// other arrays are made and freed.
+TEST_F (ScratchArrays, NothingIsLostWhileThreadsWrite)
+{
+  constexpr std::size_t COUNT = 12 * MEGABYTE / sizeof (std::uint32_t);
+  constexpr std::uint32_t THREADS = 3, ROUNDS = 6;
+  std::atomic<std::uint32_t> at_work{THREADS};
+  std::vector<std::vector<std::uint32_t>> arrays (THREADS, std::vector<std::uint32_t> (COUNT, 0));
+  std::vector<std::thread> threads;
+  for (std::vector<std::uint32_t>& array : arrays)
+    threads.emplace_back ([&array, &at_work] {
+      for (std::uint32_t round = 0; round < ROUNDS; ++round) {
+        std::vector<std::uint32_t> copy (array);
+        for (std::uint32_t& number : copy)
+          ++number;
+        array.swap (copy);
+      }
+      --at_work;
+    });
+  while (at_work > 0)
+    dropPages ();
+  for (std::thread& thread : threads)
+    thread.join ();
+  for (const std::vector<std::uint32_t>& array : arrays)
+    EXPECT_EQ (std::count (array.begin (), array.end (), ROUNDS), std::ptrdiff_t{COUNT});
+}
+
+/// A limit on file sizes stands for a full disk.
+TEST_F (ScratchArrays, NoRoomIsBadAllocAndIsDescribed)
+{
+  const std::vector<char> first (4 * LARGE_ARRAY, 'a');
+  ASSERT_EQ (scratchUse ().bytes, 4 * LARGE_ARRAY);
+  const auto before = std::signal (SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ (::getrlimit (RLIMIT_FSIZE, &limit), 0);
+  const rlimit lower{8 * LARGE_ARRAY, limit.rlim_max};
+  ASSERT_EQ (::setrlimit (RLIMIT_FSIZE, &lower), 0);
+  EXPECT_THROW (std::vector<char> (9 * LARGE_ARRAY), std::bad_alloc);
+  EXPECT_EQ (::operator new (9 * LARGE_ARRAY, std::nothrow), nullptr);
+  EXPECT_NO_THROW (std::vector<char> (7 * LARGE_ARRAY));
+  ASSERT_EQ (::setrlimit (RLIMIT_FSIZE, &limit), 0);
+  std::signal (SIGXFSZ, before);
+  EXPECT_THAT (scratchFailure (),
+               HasSubstr ("no room in the scratch folder '" + folder () + "': File too"));
+  EXPECT_THAT (scratchFailure (), HasSubstr ("it holds 4 MB, and 9 MB more are needed"));
+  EXPECT_NO_THROW (std::vector<char> (9 * LARGE_ARRAY));
+}
+
+TEST (MemoryLimit, Sizes)
+{
+  const std::vector<std::pair<std::string, std::size_t>> good{
+      {"0", 0},       {"123456789", 123456789},  {"500M", 500'000'000}, {"2g", 2'000'000'000},
+      {"1.5k", 1500}, {"2T", 2'000'000'000'000}, {"1e9", 1'000'000'000}};
+  for (const auto& [word, expected] : good) {
+    std::size_t bytes = 1;
+    EXPECT_TRUE (parseSize (word, bytes)) << word;
+    EXPECT_EQ (bytes, expected) << word;
+  }
+  std::size_t unchanged = 1;
+  for (const std::string word :
+       {"", "G", "-1", "-1G", "1GG", "1 G", "2GB", "many", "nan", "inf", "1e30", "9999999999T"})
+    EXPECT_FALSE (parseSize (word, unchanged)) << word;
+  EXPECT_EQ (unchanged, 1U);
+  EXPECT_EQ (formatSize (500'000'000), "500M");
+  EXPECT_EQ (formatSize (500'000'001), "501M");
+  EXPECT_GT (leastMemory (0), 10 * MEGABYTE);
+  EXPECT_GT (leastMemory (10'000'000), leastMemory (1'000'000));
+  EXPECT_GT (leastMemory (10'000'000), leastMemory (10'000'000, KEPT_PER_POINT / 2.0));
+  EXPECT_EQ (leastMemory (0, 1.0), leastMemory (0));
+}
+
 TEST (MappedCloud, BinaryFieldsStayInTheFileWhoseChangesAreNoticed)
 {
   const std::filesystem::path path = std::filesystem::temp_directory_path () /

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -143,12 +142,12 @@ pointersTo (std::vector<Field>& fields)
 /// \param width columns of the array; 0: as many as there are names
 template <typename Values>
 void
-addColumns (std::initializer_list<const char*> names, ScalarType type, Values values,
+addColumns (const std::vector<std::string>& names, ScalarType type, Values values,
             std::vector<Field>& fields, std::size_t width = 0)
 {
   const auto kept = std::make_shared<const Values> (std::move (values));
   const auto* first = reinterpret_cast<const char*> (kept->data ());
-  for (const char* name : names) {
+  for (const std::string& name : names) {
     Field& field = fields.emplace_back (Field{name, type});
     field.first = {kept, first};
     field.stride = (width > 0 ? width : names.size ()) * sizeOf (type);
@@ -335,7 +334,7 @@ takeUsed (std::size_t points, Triangles& triangles);
 /// Adds fields like addColumns, in place of those that have their names.
 template <typename Values>
 void
-replaceColumns (std::initializer_list<const char*> names, ScalarType type, Values values,
+replaceColumns (const std::vector<std::string>& names, ScalarType type, Values values,
                 std::vector<Field>& fields)
 {
   const auto isNamed = [&names] (const Field& field) {

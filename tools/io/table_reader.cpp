@@ -126,7 +126,7 @@ public:
         std::vector<decltype (tag)> narrowed (rows ());
         for (std::size_t row = 0; row < narrowed.size (); ++row)
           narrowed[row] = static_cast<decltype (tag)> (values_[row * width_ + c]);
-        addColumns ({name.c_str ()}, type, std::move (narrowed), fields);
+        addColumns ({name}, type, std::move (narrowed), fields);
       });
     }
     return fields;

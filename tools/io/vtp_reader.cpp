@@ -186,19 +186,17 @@ private:
       throw ReadError ("an array has not as many values as there are points");
     const std::string name (attributeOf (tag, "Name"));
     const std::size_t before = fields.size ();
+    std::vector<std::string> names{name};
     if (is_place && each >= 3)
-      addColumns ({"x", "y", "z"}, *type, std::move (values), fields, each);
+      names = {"x", "y", "z"};
     else if (each == 3 && isWord (name, "Normals"))
-      addColumns ({"nx", "ny", "nz"}, *type, std::move (values), fields);
-    else if (each == 3 && *type == ScalarType::UINT8)
-      addColumns ({"red", "green", "blue"}, *type, std::move (values), fields);
-    else if (each == 4 && *type == ScalarType::UINT8)
-      addColumns ({"red", "green", "blue", "alpha"}, *type, std::move (values), fields);
-    else {
-      addColumns ({""}, *type, std::move (values), fields, each);
-      fields.back ().name = name;
+      names = {"nx", "ny", "nz"};
+    else if ((each == 3 || each == 4) && *type == ScalarType::UINT8)
+      names = {"red", "green", "blue", "alpha"};
+    names.resize (std::min (names.size (), each));
+    addColumns (names, *type, std::move (values), fields, each);
+    if (names.size () == 1)
       fields.back ().count = each;
-    }
     for (std::size_t f = before; f < fields.size (); ++f)
       fields[f].order = order;
   }

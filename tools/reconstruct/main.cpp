@@ -118,20 +118,6 @@ writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
   return false;
 }
 
-// The image as the file of materials names it: relative to its own folder, as readers expect it.
-std::string
-imageName (const CommandLine& line)
-{
-  if (line.texture.empty ())
-    return {};
-  const std::filesystem::path folder =
-      std::filesystem::absolute (line.output).parent_path ().lexically_normal ();
-  return std::filesystem::absolute (line.texture)
-      .lexically_normal ()
-      .lexically_proximate (folder)
-      .generic_string ();
-}
-
 /// Computes the coordinates that are asked for. If that fails, the result has no mesh any more, and
 /// says why.
 TextureCoordinates
@@ -164,7 +150,13 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
 {
   std::vector<std::string> notes;
   if (const std::filesystem::path materials = line.materials (); !materials.empty ()) {
-    const std::string image = imageName (line);
+    std::string image; // relative to the folder of the materials, as readers expect it
+    if (!line.texture.empty ())
+      image = std::filesystem::absolute (line.texture)
+                  .lexically_normal ()
+                  .lexically_proximate (
+                      std::filesystem::absolute (line.output).parent_path ().lexically_normal ())
+                  .generic_string ();
     stageFile (materials,
                "newmtl surface\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1\n" +
                    (image.empty () ? "" : "map_Kd " + image + "\n"),
@@ -316,18 +308,12 @@ runTool (int argc, char** argv)
 } // namespace
 } // namespace pcl::floater
 
-/// Whether the system limits the addresses of this process (RLIMIT_AS, ulimit -v).
-static bool
-isAddressSpaceLimited ()
-{
-  rlimit limit{};
-  return ::getrlimit (RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-}
-
 int
 main (int argc, char** argv)
 {
-  const bool may_lack_memory = isAddressSpaceLimited ();
+  rlimit addresses{};
+  const bool may_lack_memory =
+      ::getrlimit (RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
   pcl::floater::prepareHeap (!may_lack_memory);
   if (!may_lack_memory)
     pcl::floater::endBlasThreads ();
