@@ -32,24 +32,8 @@ isFinished (FolderStore& folder, const Step& step, std::size_t block, const Plan
   return true;
 }
 
-// Calls work (), and makes of what it throws an exit code and a message.
-// \param to nullptr: the message is printed
-template <typename Work>
-int
-guarded (Work&& work, std::string* to = nullptr)
-{
-  try {
-    return work ();
-  }
-  catch (...) {
-    std::string message;
-    const int code = describeException ("use more blocks, or a machine with more", message);
-    if (to == nullptr)
-      return fail ("pcl_floater_distributed", code, message);
-    *to = message;
-    return code;
-  }
-}
+constexpr const char *PROGRAM = "pcl_floater_distributed",
+                     *IF_NO_MEMORY = "use more blocks, or a machine with more";
 
 // A process that is not the first.
 int
@@ -65,6 +49,7 @@ workForOthers (const Job& job, FolderStore& folder, Processes& processes)
       return static_cast<int> (order.number);
     outcome.count = 1;
     outcome.number = static_cast<std::uint64_t> (guarded (
+        PROGRAM, IF_NO_MEMORY,
         [&] {
           if (!plan && !job.sends_files && !folder.has (MANIFEST))
             throw WorkError ("'" + folder.describe (MANIFEST) +
@@ -145,7 +130,7 @@ runAll (const Job& job, FolderStore& folder)
   Processes processes;
   Dealer dealer (processes, folder);
   const bool is_first = processes.self () == 0, has_others = processes.count () > 1;
-  const int code = guarded ([&] {
+  const int code = guarded (PROGRAM, IF_NO_MEMORY, [&] {
     return is_first ? workOnSteps (job, folder, has_others ? &dealer : nullptr)
                     : workForOthers (job, folder, processes);
   });
@@ -222,7 +207,7 @@ main (int argc, char** argv)
   using namespace pcl::floater;
   prepareHeap (true);
   endBlasThreads ();
-  return guarded ([&] {
+  return guarded (PROGRAM, IF_NO_MEMORY, [&] {
     handleSignals (EXIT_INPUT);
     Job job;
     const std::optional<int> done = parseJob ({argv + (argc > 0 ? 1 : 0), argv + argc}, job);

@@ -89,8 +89,7 @@ addGeneral (CLI::App& app, Job& job)
              "threads of the steps of the whole cloud, 0: one for each core; the result is the "
              "same",
              general);
-  addMemoryLimit (app, job.line);
-  addCoordinates (app, job.line);
+  addLimitAndCoordinates (app, job.line);
   app.add_flag ("-q,--quiet", job.line.quiet, "print errors only")->group (general);
 }
 

@@ -42,31 +42,22 @@ heightField (double n)
   return {n, lift, [side] (double, double) { return side; }};
 }
 
-// A surface of revolution around z: s runs along its meridian, of which the functions give the
-// distance from the axis and the height; t runs around.
-template <typename Distance, typename Height>
-Chart
-revolved (double n, const Distance& distance, const Height& height)
-{
-  auto lift = [=] (double s, double t) {
-    const double r = distance (s), angle = 2.0 * PI * t;
-    return Eigen::Vector3d (r * std::cos (angle), r * std::sin (angle), height (s));
-  };
-  return {n, lift, [=] (double s, double) { return 2.0 * PI * distance (s); }};
-}
-
 // On a sphere, zones of equal height have equal areas (Archimedes): z = radius * (1 - scale * s).
 Chart
 sphere (double n, bool half)
 {
   const double scale = half ? 1.0 : 2.0;
   const double radius = std::sqrt (n / (2.0 * PI * scale));
-  const auto distance = [=] (double s) {
+  auto distance_to_axis = [radius, scale] (double s) {
     const double z = 1.0 - scale * std::abs (s);
     return radius * std::sqrt (std::max (0.0, 1.0 - z * z));
   };
-  return revolved (n, distance,
-                   [=] (double s) { return radius * std::max (-1.0, 1.0 - scale * std::abs (s)); });
+  auto lift = [=] (double s, double t) {
+    const double r = distance_to_axis (s);
+    const double z = radius * std::max (-1.0, 1.0 - scale * std::abs (s));
+    return Eigen::Vector3d (r * std::cos (2.0 * PI * t), r * std::sin (2.0 * PI * t), z);
+  };
+  return {n, lift, [=] (double s, double) { return 2.0 * PI * distance_to_axis (s); }};
 }
 
 // s runs from the tip downwards. Zones of equal height have equal areas, on the hemisphere as on
@@ -75,12 +66,16 @@ Chart
 finger (double n, double length)
 {
   const double radius = std::sqrt (n / (2.0 * PI * (1.0 + length)));
-  const auto distance = [=] (double s) {
+  auto distance_to_axis = [=] (double s) {
     const double z = 1.0 - std::min (1.0, (1.0 + length) * std::abs (s)); // in the hemisphere
     return radius * std::sqrt (1.0 - z * z);
   };
-  return revolved (n, distance,
-                   [=] (double s) { return radius * (length + 1.0) * (1.0 - std::abs (s)); });
+  auto lift = [=] (double s, double t) {
+    const double r = distance_to_axis (s), angle = 2.0 * PI * t;
+    return Eigen::Vector3d (r * std::cos (angle), r * std::sin (angle),
+                            radius * (length + 1.0) * (1.0 - std::abs (s)));
+  };
+  return {n, lift, [=] (double s, double) { return 2.0 * PI * distance_to_axis (s); }};
 }
 
 // A strip twice as long as wide, bent in the middle of its length around half a cylinder.

@@ -11,29 +11,25 @@
 
 namespace pcl::floater {
 int
-fail (const char* program, int code, const std::string& message)
+guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
+         std::string* to)
 {
-  std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
-  return code;
-}
-
-int
-describeException (const char* if_no_memory, std::string& message)
-{
+  int code = EXIT_INTERNAL;
+  std::string message;
   try {
-    throw;
+    return work ();
   }
   catch (const ToolError& error) {
-    message = std::string (error.what ()) + (error.code == EXIT_USAGE ? "\nTry --help." : "");
-    return error.code;
+    code = error.code;
+    message = std::string (error.what ()) + (code == EXIT_USAGE ? "\nTry --help." : "");
   }
   catch (const ReadError& error) {
+    code = EXIT_INPUT;
     message = error.what ();
-    return EXIT_INPUT;
   }
   catch (const WriteError& error) {
+    code = EXIT_OUTPUT;
     message = error.what ();
-    return EXIT_OUTPUT;
   }
   catch (const std::bad_alloc&) {
     message = scratchFailure ();
@@ -43,7 +39,11 @@ describeException (const char* if_no_memory, std::string& message)
   catch (const std::exception& error) {
     message = std::string ("unexpected error: ") + error.what ();
   }
-  return EXIT_INTERNAL;
+  if (to != nullptr)
+    *to = message;
+  else
+    std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
+  return code;
 }
 
 std::vector<std::uint32_t>

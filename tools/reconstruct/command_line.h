@@ -7,6 +7,8 @@
 #include "mesh_writer.h"
 #include "options/option_rows.h"
 
+#include <functional>
+
 namespace pcl::floater {
 /// Exit codes, as documented in --help.
 enum ExitCode
@@ -38,16 +40,12 @@ struct UsageError : ToolError
   explicit UsageError (const std::string& message) : ToolError (EXIT_USAGE, message) {}
 };
 
-/// Prints "program: message" to standard error.
-/// \return the code
-int
-fail (const char* program, int code, const std::string& message);
-
-/// The message for the exception that is being handled. To be called in a catch block.
+/// Calls work (), and makes an exit code and a message of what it throws.
 /// \param if_no_memory what to do where memory was not enough
-/// \return the exit code of it
+/// \param to gets the message; nullptr: it is printed behind the name of the program
 int
-describeException (const char* if_no_memory, std::string& message);
+guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
+         std::string* to = nullptr);
 
 /// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
 /// that begins with # begins a comment, up to the end of the line.

@@ -291,18 +291,10 @@ run (CommandLine line)
 int
 runTool (int argc, char** argv)
 {
-  try {
-    handleSignals (EXIT_INPUT);
-    CommandLine line;
-    if (const std::optional<int> done = parseCommandLine (argc, argv, line))
-      return *done;
-    return run (std::move (line));
-  }
-  catch (...) {
-    std::string message;
-    const int code = describeException ("use fewer points, or a machine with more", message);
-    return fail ("pcl_floater_reconstruct", code, message);
-  }
+  handleSignals (EXIT_INPUT);
+  CommandLine line;
+  const std::optional<int> done = parseCommandLine (argc, argv, line);
+  return done ? *done : run (std::move (line));
 }
 
 } // namespace
@@ -319,7 +311,9 @@ main (int argc, char** argv)
     pcl::floater::endBlasThreads ();
   int code = pcl::floater::EXIT_INTERNAL;
   try {
-    code = pcl::floater::runTool (argc, argv);
+    code = pcl::floater::guarded ("pcl_floater_reconstruct",
+                                  "use fewer points, or a machine with more",
+                                  [&] { return pcl::floater::runTool (argc, argv); });
   }
   catch (const std::bad_alloc&) { // while another failure was being told
     std::fputs ("pcl_floater_reconstruct: out of memory\n", stderr);

@@ -97,23 +97,6 @@ Exit codes:
      is written, but no mesh
 )";
 
-void
-addShift (CLI::App& app, CommandLine& line)
-{
-  const auto parse = [&line] (const std::string& word) {
-    line.auto_shift = word == "auto";
-    line.shift = parsePlace (word);
-    return line.auto_shift || line.shift
-               ? ""
-               : "is neither auto nor three numbers, such as 500000,5500000,0";
-  };
-  addParsed (
-      app, "--shift", parse,
-      "origin to subtract from all coordinates, where they are too far from zero for 32 bits; "
-      "auto: the rounded centre of the points, if they are so far",
-      "X,Y,Z or auto (none)", GENERAL);
-}
-
 // Adds the options of the table that a tool takes.
 struct TableOptions
 {
@@ -169,8 +152,7 @@ struct TableOptions
 void
 addGeneral (CLI::App& app, CommandLine& line)
 {
-  addMemoryLimit (app, line);
-  addCoordinates (app, line);
+  addLimitAndCoordinates (app, line);
   app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
   app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
       ->group (GENERAL);
@@ -255,16 +237,16 @@ addOutputs (CLI::App& app, CommandLine& line)
 }
 
 void
-addMemoryLimit (CLI::App& app, CommandLine& line)
+addLimitAndCoordinates (CLI::App& app, CommandLine& line)
 {
-  const auto parse = [&line] (const std::string& word) -> std::string {
+  const auto parseLimit = [&line] (const std::string& word) -> std::string {
     if (!parseSize (word, line.max_memory))
       return "is not a size, such as 500M or 2G";
     return line.max_memory < leastMemory (0)
                ? "is too small; it must be " + formatSize (leastMemory (0)) + " or more"
                : "";
   };
-  addParsed (app, "--max-memory", parse,
+  addParsed (app, "--max-memory", parseLimit,
              "keep the memory in use near this, in bytes; arrays that "
              "are not in use are kept on disk; not for discs",
              "SIZE (no limit)", GENERAL);
@@ -272,12 +254,18 @@ addMemoryLimit (CLI::App& app, CommandLine& line)
            "--max-memory: folder where the arrays are kept; these files have no names and end "
            "with the run",
            GENERAL, "FOLDER (that of OUTPUT)");
-}
-
-void
-addCoordinates (CLI::App& app, CommandLine& line)
-{
-  addShift (app, line);
+  const auto parseShift = [&line] (const std::string& word) {
+    line.auto_shift = word == "auto";
+    line.shift = parsePlace (word);
+    return line.auto_shift || line.shift
+               ? ""
+               : "is neither auto nor three numbers, such as 500000,5500000,0";
+  };
+  addParsed (
+      app, "--shift", parseShift,
+      "origin to subtract from all coordinates, where they are too far from zero for 32 bits; "
+      "auto: the rounded centre of the points, if they are so far",
+      "X,Y,Z or auto (none)", GENERAL);
   const auto parseColumns = [&line] (const std::string& word) {
     const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
     for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
@@ -293,14 +281,14 @@ addCoordinates (CLI::App& app, CommandLine& line)
       "columns of x, y and z in text with a point in each line, from 1; by default those that the "
       "first line names, or the first three",
       "X,Y,Z", GENERAL);
-  const auto parse = [&line] (const std::string& word) {
+  const auto parseClasses = [&line] (const std::string& word) {
     std::stringstream words (word);
     for (std::string one; std::getline (words, one, ',');)
       if (!parseNumber (std::string_view (one), line.classes.emplace_back ()))
         return "are no numbers of classes, such as 2,6";
     return "";
   };
-  addParsed (app, "--classes", parse,
+  addParsed (app, "--classes", parseClasses,
              "classes of an airborne scan that are taken, such as 2,6 for ground and buildings; by "
              "default all but those of noise, 7 and 18. Withheld points are never taken",
              "N,N,...", GENERAL);

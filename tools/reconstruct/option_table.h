@@ -107,10 +107,8 @@ addTableOptions (CLI::App& app, CommandLine& line,
 void
 addOutputs (CLI::App& app, CommandLine& line);
 
+/// The memory limit, and how the coordinates are read and written.
 void
-addMemoryLimit (CLI::App& app, CommandLine& line);
-
-void
-addCoordinates (CLI::App& app, CommandLine& line);
+addLimitAndCoordinates (CLI::App& app, CommandLine& line);
 
 } // namespace pcl::floater

@@ -10,38 +10,30 @@
 namespace pcl::floater {
 using Json = nlohmann::ordered_json;
 
-// As those of nlohmann::json, which have no fixed order: with the members by their names. The names
-// of the parameters are those that its macros expect.
+// As NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE for nlohmann::json, which has no fixed order: with the members
+// by their names. The names of the parameters are those that the macros of nlohmann expect.
+#define PCL_FLOATER_TO_JSON(Type, ...)                                                             \
+  static void to_json (Json& nlohmann_json_j, const Type& nlohmann_json_t)                         \
+  {                                                                                                \
+    NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, __VA_ARGS__))                     \
+  }
 // NOLINTBEGIN(readability-identifier-naming)
 
-static void
-to_json (Json& nlohmann_json_j, const Statistics& nlohmann_json_t)
-{
-  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
-      NLOHMANN_JSON_TO, cloud_points, selected_points, non_finite_points, duplicate_points,
-      working_points, outlier_points, scatter_points, stacked_points, stack_height,
-      largest_stack_height, noise, noise_quantile_90, largest_noise, projected_points,
-      coordinate_step, trimmed_triangles, opened_triangles, trimmed_components, trimmed_points,
-      view_steps, view_gaps, holes_filled, used_points, relinked_points, boundary_candidates,
-      loop_points, triangles, levels, flips, folds, necks_cut, remade_points,
-      self_intersections_found, self_intersection_flips, self_intersection_moves,
-      self_intersection_rebuilds, unknowns, nnz_matrix, nnz_factors, fill_in, residual,
-      relative_residual, iterations_u, iterations_v, reciprocal_condition, factorization_bytes))
-}
+PCL_FLOATER_TO_JSON (Statistics, cloud_points, selected_points, non_finite_points, duplicate_points,
+                     working_points, outlier_points, scatter_points, stacked_points, stack_height,
+                     largest_stack_height, noise, noise_quantile_90, largest_noise,
+                     projected_points, coordinate_step, trimmed_triangles, opened_triangles,
+                     trimmed_components, trimmed_points, view_steps, view_gaps, holes_filled,
+                     used_points, relinked_points, boundary_candidates, loop_points, triangles,
+                     levels, flips, folds, necks_cut, remade_points, self_intersections_found,
+                     self_intersection_flips, self_intersection_moves, self_intersection_rebuilds,
+                     unknowns, nnz_matrix, nnz_factors, fill_in, residual, relative_residual,
+                     iterations_u, iterations_v, reciprocal_condition, factorization_bytes)
 
-static void
-to_json (Json& nlohmann_json_j, const LoopSummary& nlohmann_json_t)
-{
-  NLOHMANN_JSON_EXPAND (
-      NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, points, length, width, width_spacings, at))
-}
+PCL_FLOATER_TO_JSON (LoopSummary, points, length, width, width_spacings, at)
 
-static void
-to_json (Json& nlohmann_json_j, const LoopDecision& nlohmann_json_t)
-{
-  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, points, width, width_spacings, at,
-                                             stays_open, probability, is_too_deep))
-}
+PCL_FLOATER_TO_JSON (LoopDecision, points, width, width_spacings, at, stays_open, probability,
+                     is_too_deep)
 
 static void
 to_json (Json& json, FacingRule rule)
@@ -49,11 +41,7 @@ to_json (Json& json, FacingRule rule)
   json = facingRuleName (rule);
 }
 
-static void
-to_json (Json& nlohmann_json_j, const FacingDecision& nlohmann_json_t)
-{
-  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (NLOHMANN_JSON_TO, triangles, at, rule, certainty))
-}
+PCL_FLOATER_TO_JSON (FacingDecision, triangles, at, rule, certainty)
 
 static void
 to_json (Json& json, const Finding& finding)
@@ -67,14 +55,10 @@ to_json (Json& json, const Finding& finding)
           {"places", places}};
 }
 
-static void
-to_json (Json& nlohmann_json_j, const MeshCheck& nlohmann_json_t)
-{
-  NLOHMANN_JSON_EXPAND (NLOHMANN_JSON_PASTE (
-      NLOHMANN_JSON_TO, nonmanifold_edges, nonmanifold_vertices, components, euler_characteristic,
-      genus, folds, degenerate_triangles, self_intersections, has_more_self_intersections,
-      self_intersections_at, largest_area_share, longest_edge, longest_edge_at, loops))
-}
+PCL_FLOATER_TO_JSON (MeshCheck, nonmanifold_edges, nonmanifold_vertices, components,
+                     euler_characteristic, genus, folds, degenerate_triangles, self_intersections,
+                     has_more_self_intersections, self_intersections_at, largest_area_share,
+                     longest_edge, longest_edge_at, loops)
 
 // NOLINTEND(readability-identifier-naming)
 

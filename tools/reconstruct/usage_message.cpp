@@ -38,16 +38,6 @@ editDistance (const std::string& a, const std::string& b)
   return table[a.size ()][b.size ()];
 }
 
-/// An argument that looks like an option and is none; empty if there is none such.
-std::string
-unknownOption (const CLI::App& app)
-{
-  for (const std::string& word : app.remaining ())
-    if (word.size () > 1 && word.front () == '-' && word != "--")
-      return word.substr (0, word.find ('='));
-  return "";
-}
-
 } // namespace
 
 std::string
@@ -88,13 +78,15 @@ usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& ar
   const std::string message = error.what ();
   const auto kind = static_cast<CLI::ExitCodes> (error.get_exit_code ());
   // A mistyped option may leave its value where INPUT should be: so it is told first.
-  if (const std::string unknown = unknownOption (app); !unknown.empty ()) {
-    Words names;
-    for (const CLI::Option* const option : app.get_options ())
-      if (!option->get_lnames ().empty ())
-        names.push_back (option->get_name ());
-    return "there is no option " + unknown + didYouMean (unknown, names);
-  }
+  for (const std::string& word : app.remaining ())
+    if (word.size () > 1 && word.front () == '-' && word != "--") {
+      const std::string unknown = word.substr (0, word.find ('='));
+      Words names;
+      for (const CLI::Option* const option : app.get_options ())
+        if (!option->get_lnames ().empty ())
+          names.push_back (option->get_name ());
+      return "there is no option " + unknown + didYouMean (unknown, names);
+    }
   if (kind == CLI::ExitCodes::ExtrasError)
     return "'" + app.remaining ().front () +
            "' is one file too many: there are one INPUT and one OUTPUT";
