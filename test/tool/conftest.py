@@ -59,13 +59,25 @@ class Tool:
         """What a program with PCL prints that writes or reads a file."""
         return subprocess.run([PCL_FILES, *arguments], cwd=self.folder, check=True, capture_output=True, text=True).stdout
 
+    def do(self, command, **more):
+        """Runs any program."""
+        return subprocess.run([str(word) for word in command], cwd=self.folder, capture_output=True, text=True, timeout=1800,
+                              **more)
+
+    def expect(self, command, code, *told, **more):
+        """Checks the exit code and parts of the messages."""
+        outcome = self.do(command, **more)
+        messages = outcome.stdout + outcome.stderr
+        assert outcome.returncode == code, messages
+        for part in told:
+            assert part in messages
+        return outcome
+
     def check(self, code, program, *arguments, says=""):
-        """Runs any program: its exit code, a part of its messages, and no temporary file is left. Returns the messages."""
-        done = subprocess.run([program, *words(arguments)], cwd=self.folder, capture_output=True, text=True, timeout=1800)
-        told = done.stdout + done.stderr
-        assert done.returncode == code and says in told, told
+        """Also that no temporary file is left. Returns what the program printed."""
+        outcome = self.expect([program, *words(arguments)], code, says)
         assert not [name for name in self.names() if "tmp" in name]
-        return done.stdout
+        return outcome.stdout
 
     def pixels(self, name):
         """Those of a picture, 0 to 255: rows of red, green and blue."""

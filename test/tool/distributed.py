@@ -6,10 +6,9 @@ import os
 import random
 import shutil
 import struct
-import subprocess
 
 import numpy as np
-from conftest import GENERATE, TOOL, Tool
+from conftest import GENERATE, OK, TOOL, Tool
 
 DISTRIBUTED, MPIRUN = (os.environ.get("PCL_FLOATER_" + name, "") for name in ("DISTRIBUTED", "MPIRUN"))
 IS_LONG = "PCL_FLOATER_LONG" in os.environ  # all pairs of processes and blocks, all clouds, 20 moments
@@ -51,21 +50,8 @@ def terrain_points(count, seed=1):
 class Work(Tool):
     """With a work folder. The names of files are those in the folder of the test."""
 
-    def do(self, command, **more):
-        return subprocess.run([str(word) for word in command], cwd=self.folder, capture_output=True, text=True, timeout=1800,
-                              **more)
-
     def ok(self, command, **more):
-        outcome = self.do(command, **more)
-        assert outcome.returncode == 0, outcome.stderr
-        return outcome
-
-    def refuse(self, command, code, *words, **more):
-        outcome = self.do(command, **more)
-        assert outcome.returncode == code, outcome.stderr
-        for word in words:
-            assert word in outcome.stderr
-        return outcome
+        return self.expect(command, OK, **more)
 
     def command(self, *arguments, work="work"):
         return [DISTRIBUTED, "--work", work, *arguments]

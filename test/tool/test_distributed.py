@@ -241,4 +241,4 @@ def test_damaged_file_is_told_by_another_process(work):
     for file in [work.path("work/mesh.bin"), *work.path("work").glob("stars.*")]:
         file.unlink()
     work.write("work/planes.0.bin", flipped(work.read("work/planes.0.bin"), -3, 4))
-    work.refuse(command, WORK, "planes.0.bin", "damaged")
+    work.expect(command, WORK, "planes.0.bin", "damaged")

@@ -121,7 +121,7 @@ def test_folders_that_cannot_be_used(work):
     cloud = work.generate("torus", "--points", 1000)
     for output, code, words in [("no/such/folder", OUTPUT, "no/such"), ("cloud.ply", OUTPUT, "not a folder"),
                                 ("work", USAGE, "work folder"), ("-", OUTPUT, "cannot write '-'")]:
-        work.refuse(work.command("--tiles", cloud, output), code, words)
+        work.expect(work.command("--tiles", cloud, output), code, words)
     assert not work.path("work/tiles.json").exists()
 
 
@@ -129,7 +129,7 @@ def test_full_disk(work):
     """Then there is no manifest, also not that of an older run; and the next run writes all."""
     cloud = work.generate("torus", "--points", 20000)
     write_tiles(work, "--blocks", 2, cloud)
-    work.refuse(work.limited(300, "--step", "write"), OUTPUT, "cannot write", "tile.0.ply")
+    work.expect(work.limited(300, "--step", "write"), OUTPUT, "cannot write", "tile.0.ply")
     assert set(os.listdir(work.path("tiles"))) == {"tile.0.ply", "tile.1.ply"}
     write_tiles(work, "--blocks", 2, cloud)
     expect_tiles(work, "tiles", work.reference(cloud), 2)

@@ -47,24 +47,24 @@ def test_wrong_command_lines(work):
             (["--work", "w", "--print-steps", "--step", "join"], "exclude"),
             (["--work", "w", "-k", "3", "cloud.ply", "mesh.ply"], "--neighbors"),
             (["--work", "w", "-", "mesh.ply"], "standard input")]:
-        work.refuse([DISTRIBUTED, *arguments], USAGE, words)
+        work.expect([DISTRIBUTED, *arguments], USAGE, words)
     work.expect_no_mesh()
     work.plan("cloud.ply")
-    work.refuse(work.step("stars", "--block", 3), USAGE, "numbered from 0")
+    work.expect(work.step("stars", "--block", 3), USAGE, "numbered from 0")
 
 
 def test_input_that_is_missing_or_cannot_be_reconstructed(work):
     work.write("line.ply", ply([(i, 0, 0) for i in range(50)]))
     for start in ([], mpirun(2)):
-        work.refuse(start + work.command("line.ply", "mesh.ply"), RECONSTRUCTION, "on one line")
-        work.refuse(start + work.command("cloud.ply", "tile2.ply", "mesh.ply", work="other"), INPUT, "tile2.ply")
-        work.refuse(start + work.command("cloud.ply", "mesh.ply", work="cloud.ply/work"), OUTPUT, "work folder")
-        work.refuse(start + work.command("cloud.ply", "/no/such/folder/mesh.ply", work="third"), OUTPUT, "/no/such/folder")
+        work.expect(start + work.command("line.ply", "mesh.ply"), RECONSTRUCTION, "on one line")
+        work.expect(start + work.command("cloud.ply", "tile2.ply", "mesh.ply", work="other"), INPUT, "tile2.ply")
+        work.expect(start + work.command("cloud.ply", "mesh.ply", work="cloud.ply/work"), OUTPUT, "work folder")
+        work.expect(start + work.command("cloud.ply", "/no/such/folder/mesh.ply", work="third"), OUTPUT, "/no/such/folder")
     shutil.rmtree(work.path("work"))
     work.plan("cloud.ply")
     work.path("cloud.ply").unlink()
     work.ok(work.step("neighbors", "--block", 0))
-    work.refuse(work.step("join"), INPUT, "cloud.ply")
+    work.expect(work.step("join"), INPUT, "cloud.ply")
     work.expect_no_mesh()
 
 
@@ -93,7 +93,7 @@ def test_damaged_files(work):
         for bad, word in faults:
             assert good != bad
             work.write("work/" + name, bad)
-            told = work.refuse(work.again(), WORK, "work/" + name, word, "pcl_floater_distributed: ").stderr
+            told = work.expect(work.again(), WORK, "work/" + name, word, "pcl_floater_distributed: ").stderr
             assert "pcl_floater_reconstruct" not in told
             work.expect_no_mesh()
         work.write("work/" + name, good)
@@ -130,7 +130,7 @@ def test_forged_indices(work):
             if bad == good:
                 continue  # it has no values
             work.write("work/" + name, bad)
-            work.refuse(work.again(), WORK)
+            work.expect(work.again(), WORK)
             work.write("work/" + name, good)
             if name != "mesh.bin":
                 work.path("work/mesh.bin").unlink(missing_ok=True)
@@ -142,12 +142,12 @@ def test_files_that_others_can_write(work):
     file = work.path("work/planes.1.bin")
     assert [path.stat().st_mode & 0o777 for path in (work.path("work"), file)] == [0o700, 0o600]
     file.chmod(0o620)
-    work.refuse(work.again(), WORK, "work/planes.1.bin", "only this user can write")
+    work.expect(work.again(), WORK, "work/planes.1.bin", "only this user can write")
     file.chmod(0o600)
     elsewhere = file.rename(work.path("elsewhere.bin"))
     saved = elsewhere.read_bytes()
     file.symlink_to(elsewhere)
-    work.refuse(work.again(), WORK, "work/planes.1.bin", "symbolic link")
+    work.expect(work.again(), WORK, "work/planes.1.bin", "symbolic link")
     # A link in the place of a file that is written is replaced.
     shutil.rmtree(work.path("work"))
     work.plan("cloud.ply")
@@ -167,7 +167,7 @@ def test_edited_manifest(work):
     plan["arguments"][-1] = "victim.ply"
     plan["checksum"] = checksum()
     work.write("work/manifest.json", json.dumps(plan))
-    work.refuse(work.step("write"), WORK, "manifest.json")
+    work.expect(work.step("write"), WORK, "manifest.json")
     assert "victim.ply" not in work.names()
 
 
@@ -176,8 +176,8 @@ def test_tile_that_changes_in_its_middle(work):
     work.finish(with_mesh=True)
     cloud = work.read("cloud.ply")
     work.write("cloud.ply", flipped(cloud, len(cloud) // 2))
-    work.refuse(work.again(), WORK, "input files")
-    work.refuse(work.step("write"), WORK, "input files")
+    work.expect(work.again(), WORK, "input files")
+    work.expect(work.step("write"), WORK, "input files")
     work.expect_no_mesh()
 
 
@@ -186,10 +186,10 @@ def test_names(work):
     work.ok(work.command("--step", "plan", "--blocks", 2, "cloud.ply", "mesh.ply", work=name))
     lines = work.ok(work.command("--print-steps", work=name)).stdout.split("\n")
     assert {shlex.split(line)[2] for line in filter(None, lines)} == {name}
-    work.refuse(work.command("--step", "plan", "cloud.ply", "m.ply", work="a\nb"), USAGE, "line break")
+    work.expect(work.command("--step", "plan", "cloud.ply", "m.ply", work="a\nb"), USAGE, "line break")
     odd = os.fsdecode(b"odd\xff.ply")
     work.path("cloud.ply").rename(work.path(odd))
-    work.refuse(work.command("--step", "plan", odd, "m.ply", work="odd"), USAGE, "UTF-8")
+    work.expect(work.command("--step", "plan", odd, "m.ply", work="odd"), USAGE, "UTF-8")
 
 
 @pytest.mark.skipif(not FAULTS, reason="there is no library that makes calls of the system fail")
@@ -197,7 +197,7 @@ def test_file_that_does_not_get_to_the_disk(work):
     """An error of fsync. The file is not there then, and is made again."""
     work.plan("cloud.ply")
     broken = {**os.environ, "LD_PRELOAD": FAULTS, "PCL_FLOATER_FAULT": "fsync:0:EIO"}
-    work.refuse(work.step("neighbors", "--block", 1), OUTPUT, "cannot write", "neighbors.1.bin", env=broken)
+    work.expect(work.step("neighbors", "--block", 1), OUTPUT, "cannot write", "neighbors.1.bin", env=broken)
     assert "neighbors.1.bin" not in work.work_files()
     work.ok(work.step("neighbors", "--block", 1))
     assert "neighbors.1.bin" in work.work_files()
@@ -208,31 +208,31 @@ def test_file_of_another_plan(work):
     other = work.generate("sphere", "--points", 1000, name="other.ply")
     work.ok(work.command("--blocks", 3, other, "o.ply", work="other"))
     shutil.copy(work.path("other/planes.1.bin"), work.path("work"))
-    work.refuse(work.again(), WORK, "planes.1.bin", "another plan")
+    work.expect(work.again(), WORK, "planes.1.bin", "another plan")
 
 
 def test_other_parameters(work):
     work.finish()
-    work.refuse(work.again("--holes", "close-all"), WORK, "manifest.json", "the options")
-    work.refuse(work.command("--blocks", 4, "cloud.ply", "mesh.ply"), WORK, "manifest.json", "blocks")
+    work.expect(work.again("--holes", "close-all"), WORK, "manifest.json", "the options")
+    work.expect(work.command("--blocks", 4, "cloud.ply", "mesh.ply"), WORK, "manifest.json", "blocks")
     work.generate("torus", "--points", 1001)
-    work.refuse(work.again(), WORK, "manifest.json", "input files")
+    work.expect(work.again(), WORK, "manifest.json", "input files")
     work.expect_no_mesh()
 
 
 def test_step_before_its_time(work):
-    work.refuse(work.step("neighbors", "--block", 0), WORK, "manifest.json")
+    work.expect(work.step("neighbors", "--block", 0), WORK, "manifest.json")
     work.plan("cloud.ply")
-    work.refuse(work.step("planes", "--block", 0), WORK, "outliers.bin", "--print-steps")
-    work.refuse(work.step("join"), WORK, "outliers.bin")
-    work.refuse(work.step("write"), WORK, "mesh.bin")
+    work.expect(work.step("planes", "--block", 0), WORK, "outliers.bin", "--print-steps")
+    work.expect(work.step("join"), WORK, "outliers.bin")
+    work.expect(work.step("write"), WORK, "mesh.bin")
 
 
 def test_full_disk(work):
     work.generate("torus", "--points", 20000)
 
     def expect_full(kilobytes, file, *arguments):
-        work.refuse(work.limited(kilobytes, *arguments), OUTPUT, "cannot write", file)
+        work.expect(work.limited(kilobytes, *arguments), OUTPUT, "cannot write", file)
         assert not [name for name in work.work_files() if name.startswith(".") or name == file]
         work.expect_no_mesh()
 
@@ -249,9 +249,9 @@ def test_full_disk(work):
 
 
 def test_too_little_memory(work):
-    work.refuse(work.again("--max-memory", "20M"), USAGE, "--max-memory")
+    work.expect(work.again("--max-memory", "20M"), USAGE, "--max-memory")
     work.generate("torus", "--points", 400000)
-    work.refuse(work.again("--max-memory", "30M"), USAGE, "too small", "400000 points")
+    work.expect(work.again("--max-memory", "30M"), USAGE, "too small", "400000 points")
     work.ok(work.command("--blocks", 3, "--max-memory", "34M", "--step", "plan", "cloud.ply", "mesh.ply"))
-    work.refuse(work.step("join", "--max-memory", "34M"), USAGE, "too small", "43M")
+    work.expect(work.step("join", "--max-memory", "34M"), USAGE, "too small", "43M")
     work.expect_no_mesh()

@@ -167,19 +167,6 @@ private:
   Words words_;                // of a line
 };
 
-void
-checkCount (const TableHead& head, std::size_t rows, std::vector<std::string>& warnings)
-{
-  if (!head.count || *head.count == rows)
-    return;
-  if (*head.count > rows)
-    throw ReadError ("its first line promises " + std::to_string (*head.count) +
-                     " points, but the file has only " + std::to_string (rows) +
-                     "; it is truncated or that line is wrong");
-  warnings.push_back ("the first line of the input file promises " + std::to_string (*head.count) +
-                      " points, but there are " + std::to_string (rows) + "; all were taken");
-}
-
 Cloud
 parseTable (const FileBytes& file, bool is_intensity_first,
             const std::array<std::size_t, 3>& columns)
@@ -220,7 +207,13 @@ parseTable (const FileBytes& file, bool is_intensity_first,
                                   head.columns.size () == 3 &&
                                   table.areUnitVectors (0, table.rows () / 2);
   const std::size_t points = table.rows () / (are_normals_behind ? 2 : 1);
-  checkCount (head, points, warnings);
+  if (const std::uint64_t count = head.count.value_or (points); count > points)
+    throw ReadError ("its first line promises " + std::to_string (count) +
+                     " points, but the file has only " + std::to_string (points) +
+                     "; it is truncated or that line is wrong");
+  else if (count < points)
+    warnings.push_back ("the first line of the input file promises " + std::to_string (count) +
+                        " points, but there are " + std::to_string (points) + "; all were taken");
   if (!head.has_names && table.countsRows ())
     throw ReadError (
         "its first column counts the points and can hardly be x: name the columns in a "
