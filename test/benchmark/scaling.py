@@ -3,9 +3,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How time and memory grow with the points: pcl_floater, pcl::GreedyProjectionTriangulation, CGAL's advancing front.
 
-Writes floater_result/scaling/report.md in the working directory, with charts, tables as CSV files, and runs.json,
-which has all runs, with the seconds of their stages. Prints seconds and memory side by side. The methods run in turn,
-each run in a process of its own.
+Prints seconds and memory side by side, and the exponents of their growth. Writes floater_result/scaling/runs.json in
+the working directory, which has all runs, with the seconds of their stages. The methods run in turn, each run in a
+process of its own. Figures are medians of the repeated runs: the time from the points in memory to the triangles in
+memory, the user time of the process (CPU time), and its largest resident set. floater has all defaults; gp3 the settings
+in peers.cpp, with the search for its normals; afs runs in one thread.
 CLOUD: point clouds (.pcd, .ply or .obj); default: some of the folder PCL_FLOATER_DATA, if it exists
 """
 import json
@@ -78,61 +80,29 @@ def measure(tools, surface, cloud, points, file, folder, arguments, given_up):
         yield dict(one, surface=surface, cloud=name, points=points, method=method, all=runs[method])
 
 
-def exponent(of_method, figure):
-    good = [one for one in of_method if "outcome" not in one]
-    law = bench.power_law([one["points"] for one in good], [figure(one) for one in good]) if good else None
-    return f"{law[1]:.2f}" if law else "-"
-
-
-def write_report(all_of_them, arguments):
-    report = bench.ReportFolder("scaling")
-    (report.folder / "runs.json").write_text(json.dumps(all_of_them, indent=1))
-    report.add("# How time and memory grow with the number of points")
-    report.add(
-        "Each run is a process of its own, the methods take turns; figures are medians of the repeated runs. Time: "
-        "from the points in memory to the triangles in memory. CPU seconds: user time of the process, with "
-        "reading and writing. Memory: the largest resident set of the process, with libraries and points.")
-    report.add(
-        "floater: `pcl_floater_reconstruct`, all defaults; floater-disc: the same with `--topology disc`. gp3: "
-        "`pcl::GreedyProjectionTriangulation`, mu 2.5, 100 neighbours, surface angle 45, angles 10 to 120 degrees, "
-        "radius 5 times the mean distance to the 6 nearest neighbours, normals by `NormalEstimationOMP` from 20. afs: "
-        f"CGAL's `advancing_front_surface_reconstruction`, radius ratio 5, beta 0.52. Threads: "
-        f"{arguments.threads or 'all'} for floater and the normals of gp3, 1 for afs. " + bench.machine())
+def tell(all_of_them, arguments):
+    """Writes runs.json; prints seconds and memory side by side, and exponents."""
+    folder = pathlib.Path("floater_result/scaling")
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "runs.json").write_text(json.dumps(all_of_them, indent=1))
     cells = {(one["cloud"], one["points"]): {} for one in all_of_them}
     for one in all_of_them:
         cells[one["cloud"], one["points"]][one["method"]] = one.get("outcome") or (
             f"{one['seconds']:.2f} s, {one['peak_bytes'] / 1e6:.0f} MB")
-    side = (["cloud", "points", *arguments.methods],
-            [[cloud, f"{points:,}", *(row.get(method, "-") for method in arguments.methods)]
-             for (cloud, points), row in cells.items()])
-    report.add("## Side by side")
-    report.table("comparison", *side)
+    print(bench.markdown(["cloud", "points", *arguments.methods],
+                         [[cloud, f"{points:,}", *(row.get(method, "-") for method in arguments.methods)]
+                          for (cloud, points), row in cells.items()]))
     exponents = []
     for surface in dict.fromkeys(one["surface"] for one in all_of_them):
-        here = [one for one in all_of_them if one["surface"] == surface]
-        good = [one for one in here if "outcome" not in one]
-        of = {method: [one for one in good if one["method"] == method] for method in arguments.methods}
-        report.add(f"## {surface}")
-        report.table(f"runs_{surface}",
-                     ["method", "cloud", "points", "seconds", "CPU seconds", "microseconds per point", "MB",
-                      "bytes per point", "triangles", "points used, %", "runs"],
-                     [[one["method"], one["cloud"], f"{one['points']:,}", f"{one['seconds']:.3f}",
-                       f"{one['cpu_seconds']:.3f}", f"{1e6 * one['seconds'] / one['points']:.2f}",
-                       f"{one['peak_bytes'] / 1e6:.0f}", f"{one['peak_bytes'] / one['points']:.0f}",
-                       f"{one['triangles']:,.0f}", f"{100 * one['used_points'] / one['points']:.2f}", one["runs"]]
-                      for one in good])
-        for chart, quantity, figure in (("time", "seconds", lambda one: one["seconds"]),
-                                        ("memory", "peak memory, MB", lambda one: one["peak_bytes"] / 1e6)):
-            report.chart(f"{chart}_{surface}", {method: ([one["points"] for one in some], [figure(one) for one in some])
-                                                for method, some in of.items() if some}, quantity)
-        for method, some in of.items():
-            if some:
-                exponents.append([surface, method] + [exponent(some, lambda one, key=key: one[key])
-                                                      for key in ("seconds", "cpu_seconds", "peak_bytes")])
-    report.add("## Exponents\n\np of the power law c N^p nearest to the figures.")
-    report.table("exponents", ["surface", "method", "time", "CPU time", "memory"], exponents)
-    print(bench.markdown(*side))
-    report.finish()
+        for method in arguments.methods:
+            good = [one for one in all_of_them
+                    if "outcome" not in one and (one["surface"], one["method"]) == (surface, method)]
+            laws = [bench.power_law([one["points"] for one in good], [one[key] for one in good])
+                    for key in ("seconds", "cpu_seconds", "peak_bytes")] if good else []
+            if good:
+                exponents.append([surface, method] + [f"{law[1]:.2f}" if law else "-" for law in laws])
+    print("p of the power law c N^p nearest to the figures:\n")
+    print(bench.markdown(["surface", "method", "time", "CPU time", "memory"], exponents) + bench.machine())
 
 
 def main():
@@ -179,7 +149,7 @@ def main():
                 print(f"Skipped: {cloud.stem}, because it has {points} points")
                 continue
             measured += measure(tools, "clouds", cloud.stem, points, cloud, folder, arguments, given_up)
-    write_report(measured, arguments)
+    tell(measured, arguments)
 
 
 if __name__ == "__main__":

@@ -5,8 +5,7 @@
 
 Writes floater_result/benchmark/report.md in the working directory, with pictures and CSV files.
 CLOUD: point clouds that are discs (.pcd, .ply or .obj); default: seven of the folder PCL_FLOATER_DATA, and a generated
-       finger, whose tip is about as dense in the plane as the densest part of the largest model of TW 385. Where a true
-       mesh NAME.gt.ply lies beside NAME.pcd, it is used.
+       finger, whose tip is about as dense in the plane as the densest part of the largest model of TW 385.
 """
 import pathlib
 import tempfile
@@ -22,8 +21,6 @@ CLOUDS = ("beetle_front", "man_bust", "bunny", "nefertiti", "face_strip", "igea"
 ORDERINGS = ("amd", "metis", "reverse-cuthill-mckee")
 SOLVERS = ("umfpack", "superlu", "bicgstab-ilut")
 STAGES = ("neighbours", "boundary", "weights", "UMFPACK")  # up to the parameters
-NEIGHBORHOODS = ("nearest-delaunay", "nearest", "ball-delaunay", "ball")
-WEIGHTS = ("uniform", "inverse-distance", "shape-preserving", "mean-value")
 NEIGHBORS = 20
 LARGEST_BAND = 50000  # unknowns; the factors after reverse Cuthill-McKee soon fill the memory
 # As printed in TW 385, on a Pentium 4 with 2.4 GHz. BUNNY is the same scan as bunny with 101 points more.
@@ -99,35 +96,6 @@ def sparsity_figure(report, name, points, loop, nonzeros):
                    f"has {nonzeros:,} nonzeros")
 
 
-def quality(tools, cloud, truth, folder):
-    """Rows: neighbourhood, weights, recall and turned triangles without flips and with them, least distance."""
-    true_mesh = bench.Mesh.read(truth)
-    wanted = {tuple(edge) for edge in true_mesh.edges.tolist()}
-    normals = true_mesh.point_normals()
-    for neighborhood in NEIGHBORHOODS:
-        for weights in WEIGHTS:
-            cells, least = [], "-"
-            for flips in ("off", "on"):
-                run = tools.reconstruct(cloud, folder / "mesh.ply", "--topology", "disc", "--boundary", "two-segments",
-                                        "--neighborhood", neighborhood, "--weights", weights, "--flips", flips,
-                                        "--uncross", "off", "--parameterization", folder / "flat.ply")
-                if run["status"] != "SUCCESS":
-                    cells += [run["status"], "-"]
-                    continue
-                mesh = bench.Mesh.read(folder / "mesh.ply")
-                turned = ((mesh.normals * normals[mesh.triangles].sum(axis=1)).sum(axis=1) < 0).sum()
-                turned = min(turned, len(mesh.triangles) - turned)
-                if len(mesh.points) == len(true_mesh.points):
-                    cells.append(f"{100 * sum(tuple(e) in wanted for e in mesh.edges.tolist()) / len(wanted):.2f}")
-                else:
-                    cells.append("-")
-                cells.append(f"{100 * turned / len(mesh.triangles):.2f}")
-                flat, used = bench.read_ply(folder / "flat.ply")
-                flat = flat[np.unique(used)]
-                least = f"{cKDTree(flat).query(flat, 2)[0][:, 1].min():.1e}"
-            yield [cloud.stem, neighborhood, weights, *cells, least]
-
-
 def measure(tools, cloud, folder, repeats):
     """Rows of the tables of one cloud, its reports by solver, and its seconds by stage."""
 
@@ -191,7 +159,7 @@ def write_tables(report, rows, repeats):
 def main():
     parser = bench.parser(__doc__)
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="runs of which the shortest time is taken")
-    parser.add_argument("--only", default="tables,sparsity,mesh,quality", metavar="LIST", help="some of %(default)s")
+    parser.add_argument("--only", default="tables,sparsity,mesh", metavar="LIST", help="some of %(default)s")
     parser.add_argument("clouds", nargs="*", type=pathlib.Path, metavar="CLOUD")
     arguments = parser.parse_args()
     only = arguments.only.split(",")
@@ -239,19 +207,6 @@ def main():
                                   folder / "flat.vtk")
                 tools.picture(folder / "mesh.vtk", folder / "flat.vtk", report.folder / drawn, "--height", 600)
                 report.picture(drawn, f"{cloud.stem}: its mesh and parameterization")
-        if "quality" in only:
-            report.add("## Neighbourhoods and weights\n\nRecall: edges of the ground truth that the mesh has, in "
-                       "percent. Turned: triangles that face away from the ground truth. Each as the triangulation of "
-                       "the plane gives it, and after the flips on the surface. Least distance: of two parameters, in "
-                       "a circle of radius 1.")
-            rows = []
-            for cloud in clouds:
-                if cloud.with_suffix(".gt.ply").exists():
-                    print(cloud.stem, "quality", flush=True)
-                    rows += quality(tools, cloud, cloud.with_suffix(".gt.ply"), folder)
-            report.table("neighbourhoods_and_weights",
-                         ["cloud", "neighbours", "weights", "recall, %", "turned, %", "recall after flips, %",
-                          "turned after flips, %", "least distance"], rows)
     report.finish()
 
 
