@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 
 namespace pcl::floater::fuzz {
@@ -39,7 +40,15 @@ public:
   bool isOneIn (std::size_t n) { return below (n) == n - 1; }
 
   /// Any bit pattern: also infinite, NaN and denormal numbers.
-  double anyDouble ();
+  double anyDouble ()
+  {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+      bits = bits << 8U | byte ();
+    double number;
+    std::memcpy (&number, &bits, sizeof number);
+    return number;
+  }
 
 private:
   const std::uint8_t* at_;
@@ -60,10 +69,6 @@ struct Attack
 /// \param most points at most, 16 or more
 Attack
 decodeAttack (ByteSource& bytes, std::size_t most);
-
-/// The cloud and options of random bytes.
-Attack
-randomAttack (std::uint64_t seed, std::size_t most);
 
 /// Compares a result with what the headers promise, without any code of the library: no status that
 /// blames the library; without a mesh a message; else triangles of selected points that form an

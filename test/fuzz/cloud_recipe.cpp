@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attack.h"
 
+#include "options/option_rows.h"
 #include "surfaces.h"
 
 #include <Eigen/Geometry>
@@ -9,10 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <vector>
 
 namespace pcl::floater::fuzz {
@@ -311,18 +310,14 @@ decodeLimit (ByteSource& bytes)
 DiscOptions
 decodeDiscOptions (ByteSource& bytes, std::size_t points)
 {
-  constexpr std::array<Solver, 4> SOLVERS{Solver::UMFPACK, Solver::SUPERLU, Solver::BICGSTAB_ILUT,
-                                          Solver::GAUSS_SEIDEL};
-  constexpr std::array<Ordering, 5> ORDERINGS{Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS,
-                                              Ordering::REVERSE_CUTHILL_MCKEE, Ordering::NATURAL};
   DiscOptions disc;
   disc.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
   disc.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
   disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
   disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
   disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
-  disc.solver.method = SOLVERS[bytes.below (SOLVERS.size ())];
-  disc.solver.ordering = ORDERINGS[bytes.below (ORDERINGS.size ())];
+  disc.solver.method = SOLVER_CHOICES[bytes.below (SOLVER_CHOICES.size ())].second;
+  disc.solver.ordering = ORDERING_CHOICES[bytes.below (ORDERING_CHOICES.size ())].second;
   disc.boundary.cluster_k = static_cast<int> (bytes.below (40));
   disc.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
   disc.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;
@@ -381,17 +376,6 @@ decodeOptions (ByteSource& bytes, std::size_t points)
 
 } // namespace
 
-double
-ByteSource::anyDouble ()
-{
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < sizeof bits; ++i)
-    bits = bits << 8U | byte ();
-  double number;
-  std::memcpy (&number, &bits, sizeof number);
-  return number;
-}
-
 Attack
 decodeAttack (ByteSource& bytes, std::size_t most)
 {
@@ -431,18 +415,6 @@ decodeAttack (ByteSource& bytes, std::size_t most)
           points.empty () ? Eigen::Vector3f (Eigen::Vector3f::UnitZ ())
                           : Eigen::Vector3f (points[p % points.size ()].cast<float> ()));
   return attack;
-}
-
-Attack
-randomAttack (std::uint64_t seed, std::size_t most)
-{
-  constexpr std::size_t ENOUGH = 4096; // more bytes than a recipe takes, but for raw points
-  std::mt19937_64 engine (seed);
-  std::array<std::uint8_t, ENOUGH> bytes{};
-  for (std::uint8_t& byte : bytes)
-    byte = static_cast<std::uint8_t> (engine ());
-  ByteSource source (bytes.data (), bytes.size ());
-  return decodeAttack (source, most);
 }
 
 } // namespace pcl::floater::fuzz

@@ -254,9 +254,6 @@ TEST_P (MemoryFaults, EndARunInAnOrderlyWay)
     }
   EXPECT_GT (ended, survived);
   EXPECT_EQ (reconstruct (way.input, way.options).triangles, expected.triangles);
-  RecordProperty ("allocations", static_cast<int> (all));
-  RecordProperty ("ended", static_cast<int> (ended));
-  RecordProperty ("survived", static_cast<int> (survived));
 }
 
 INSTANTIATE_TEST_SUITE_P (Ways, MemoryFaults, testing::Range<std::size_t> (0, 7));
