@@ -78,28 +78,6 @@ def test_signals_are_handled_within_the_run():
         signal.signal(signal.SIGALRM, previous)
 
 
-def test_other_threads_run_meanwhile():
-    """Another thread waits within the run, which can only end if both proceed."""
-    in_run, go_on = threading.Event(), threading.Event()
-
-    def progress(stage, fraction):
-        in_run.set()
-        assert go_on.wait(60)
-
-    counted = []
-
-    def other():
-        assert in_run.wait(60)
-        counted.append(len(pcl_floater.reconstruct(torus()).triangles))  # a run within the time of another
-        go_on.set()
-
-    thread = threading.Thread(target=other)
-    thread.start()
-    mesh = pcl_floater.reconstruct(torus(), progress=progress)
-    thread.join()
-    assert counted == [len(mesh.triangles)]
-
-
 def test_lock_of_the_interpreter_is_free_within_the_run():
     """A thread of Python counts while a run without progress is under way in another."""
     points = torus(600, 240)

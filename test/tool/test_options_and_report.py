@@ -25,10 +25,8 @@ def test_help_and_version(tool):
 def test_messages_name_the_option(cloud):
     for options, message in (
             ("--thread 4", "there is no option --thread; did you mean --threads?"),
-            ("--thraeds 4", "there is no option --thraeds; did you mean --threads?"),
             ("--neighbours 4", "there is no option --neighbours; did you mean --neighbors?"),
             ("--neigh 4", "there is no option --neigh; did you mean --neighbors or --neighborhood?"),
-            ("--frobnicate", "there is no option --frobnicate"),
             ("--" + "x" * 10000, "there is no option --" + "x" * 10000),
             ("--facing outward", "--facing: 'outward' is none of: auto, outwards, up, viewpoint, normals, inwards; "
                                  "did you mean outwards?"),
@@ -49,29 +47,24 @@ def test_messages_name_the_option(cloud):
     cloud.fail("in.pcd", USAGE, "OUTPUT is required; the simplest command is pcl_floater_reconstruct scan.pcd mesh.ply\n"
                                 "Try --help.\n")
     cloud.fail("", USAGE, "INPUT is required")
+    for names in (["in.pcd", ""], ["", "out.ply"]):
+        cloud.fail(names, USAGE, "INPUT and OUTPUT are names of files; one of them is empty")
 
 
 def test_bad_options_are_refused(cloud):
     for options, cause in (
-            ("-k 20.5", "'20.5' is not a whole number"),
             ("-k 99999999999999999999", "is not a whole number"),
             ("--opening-angle wide", "'wide' is not a number"),
             ("--holes by-size", "--holes by size need"),
             ("--largest-hole-length 1 --largest-hole 2", "excludes"),
             ("--shift 1,2", "'1,2' is neither auto nor three numbers"),
-            ("--shift 1,2,3m", "'1,2,3m' is neither"),
             ("--shift 1,2,nan", "'1,2,nan' is neither"),
             ("--viewpoint 1,2", "'1,2' is neither auto, none, nor three numbers"),
             ("--facing viewpoint --viewpoint none", "no viewpoint is looked for"),
             ("--facing normals", "--facing normals: the points of 'in.pcd' have no normals"),
             ("--use-input-normals on", "--use-input-normals on: the points of 'in.pcd' have no normals"),
-            ("--remove-outliers yes", "'yes' is none of: on, off"),
-            ("--topology surface --loop loop.txt", "are for a disc"),
             ("--topology surface --parameterization flat.ply", "are for a disc"),
-            ("--loop loop.txt --holes close-all", "one boundary loop and no holes"),
             ("--method tw385 --topology surface", "TW 385"),
-            ("--precision half", "--precision: 'half' is none of"),
-            ("--page-triangles many", "--page-triangles: 'many' is not a whole number"),
             ("--max-memory 1M", "'1M' is too small; it must be "),
             ("--scratch .", "--scratch is of no use without --max-memory"),
             ("--max-memory 2G --topology disc", "of a disc"),
