@@ -163,19 +163,14 @@ TEST_F (FloaterClass, TakesTheNormalsOfPointsIfAskedTo)
   EXPECT_FALSE (faces_outwards (Facing::AUTO, true));
   EXPECT_TRUE (faces_outwards (Facing::OUTWARDS, true));
 
-  // They are those of the planes as well; where they are zero, as they are until they are set,
-  // planes are fitted. Zones with crossing triangles would be made anew without planes.
+  // They are those of the planes as well. Zones with crossing triangles would be made anew without planes.
   floater.setRemoveSelfIntersections (false);
-  const auto triangles = [&] (float x, bool use) {
-    for (pcl::PointNormal& point : *cloud)
-      point.getNormalVector3fMap () = x * Eigen::Vector3f::UnitX ();
-    (void)faces_outwards (Facing::OUTWARDS, use);
-    return trianglesOf (polygons);
-  };
-  const Triangles expected = triangles (0.0F, false);
-  EXPECT_EQ (triangles (0.0F, true), expected);
-  EXPECT_EQ (triangles (1.0F, false), expected);
-  EXPECT_NE (triangles (1.0F, true), expected);
+  EXPECT_TRUE (faces_outwards (Facing::OUTWARDS, false));
+  const Triangles fitted = trianglesOf (polygons);
+  for (pcl::PointNormal& point : *cloud)
+    point.getNormalVector3fMap () = Eigen::Vector3f::UnitX ();
+  (void)faces_outwards (Facing::OUTWARDS, true);
+  EXPECT_NE (trianglesOf (polygons), fitted);
 }
 
 // The neighbours and planes of PCL give the mesh that the core's own give, but for ties; of
@@ -334,53 +329,37 @@ TEST_F (FloaterClass, TextureFailuresAreThoseOfTheRun)
   floater.setProgressCallback ([&fractions] (double done) { fractions.push_back (done); });
   runWell (floater);
   EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
-  EXPECT_EQ (fractions.back (), 1.0);
   EXPECT_EQ (std::count (fractions.begin (), fractions.end (), 1.0), 1);
-  fractions.assign (1, 0.0);
   floater.setCancelledCallback ([&fractions] { return fractions.back () >= 0.5; });
+  fractions.assign (1, 0.0);
   Polygons polygons;
   floater.reconstruct (polygons);
-  EXPECT_EQ (floater.getTextureCoordinates ().status, RunStatus::CANCELLED);
   EXPECT_EQ (floater.getStatus (), RunStatus::CANCELLED);
-  EXPECT_TRUE (polygons.empty ());
+  EXPECT_EQ (floater.getTextureCoordinates ().status, RunStatus::CANCELLED);
 }
 
-// A wave behind a square, seen by a camera: the cloud tells where it is, and the rows of its image.
+// The hills lie on their backs, as a sensor below them sees them; the output has the rows of the cloud.
 TEST_F (FloaterClass, TakesTheSensorOriginAndTheRowsOfACloud)
 {
-  constexpr int WIDTH = 110, HEIGHT = 140;
-  const Eigen::Vector3d at (3.0, -2.0, 5.0);
-  RandomStream random (1);
-  const Cloud::Ptr cloud (new Cloud (WIDTH, HEIGHT));
-  cloud->sensor_origin_ = {3.0F, -2.0F, 5.0F, 0.0F};
-  for (int i = 0; i < HEIGHT; ++i)
-    for (int j = 0; j < WIDTH; ++j) {
-      const bool is_square = i > 40 && i < 80 && j > 30 && j < 70;
-      const double depth =
-          (is_square ? 1.0 : 2.0 + 0.1 * std::sin (0.1 * i)) * (1.0 + 0.01 * random.normal ());
-      const Eigen::Vector3d ray (0.006 * (i - 70), 0.006 * (j - 55), 1.0);
-      (*cloud) (j, i).getVector3fMap () = (at + depth * ray).cast<float> ();
-    }
-  (*cloud)[37].z = std::nanf ("");
+  const Cloud::Ptr cloud = heightField ();
+  cloud->width = 50;
+  cloud->height = 10;
   Class floater;
-  for (const bool is_image : {true, false}) {
-    if (!is_image) {
-      cloud->width *= cloud->height;
-      cloud->height = 1;
-    }
+  floater.setFacing (Facing::VIEWPOINT);
+  floater.setViewUse (ViewUse::NEVER);
+  for (const float height : {-40.0F, 40.0F}) {
+    cloud->sensor_origin_ = {10.0F, 10.0F, height, 0.0F};
     floater.setInputCloud (cloud);
     Cloud points;
     Polygons polygons;
     floater.reconstruct (points, polygons);
     ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
-    EXPECT_EQ (points.width, cloud->width);
-    EXPECT_EQ (points.height, cloud->height);
-    const Report& report = floater.getReport ();
-    EXPECT_TRUE (report.is_view);
-    EXPECT_FALSE (report.is_far_view);
-    EXPECT_EQ (report.check.components, 2U);
-    for (int axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR (report.viewpoint.at (static_cast<std::size_t> (axis)), at[axis], 1e-9);
+    EXPECT_EQ (points.width, 50U);
+    EXPECT_EQ (points.height, 10U);
+    const pcl::Indices& t = polygons.front ().vertices;
+    const Eigen::Vector3f a = points[t[0]].getVector3fMap (), b = points[t[1]].getVector3fMap (),
+                          c = points[t[2]].getVector3fMap ();
+    EXPECT_GT ((b - a).cross (c - a).z () * height, 0.0F);
   }
 }
 
