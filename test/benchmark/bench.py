@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the benchmarks share: the programs, their reports, meshes, tables and charts."""
 import argparse
-import csv
 import json
 import os
 import pathlib
@@ -235,7 +234,7 @@ def markdown(columns, rows):
 
 
 class ReportFolder:
-    """report.md, with tables as CSV files and pictures beside it."""
+    """report.md, with pictures beside it."""
 
     def __init__(self, name):
         self.folder = pathlib.Path.cwd() / "floater_result" / name
@@ -245,10 +244,8 @@ class ReportFolder:
     def add(self, text):
         self.text += text + "\n\n"
 
-    def table(self, name, columns, rows):
+    def table(self, columns, rows):
         self.add(markdown(columns, rows))
-        with open(self.folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([columns, *rows])
 
     def picture(self, file, caption):
         self.add(f"![{caption}]({file})\n\n{caption}")

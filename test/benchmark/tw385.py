@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the tables and figures of TW 385 again, from the reports of pcl_floater_reconstruct.
 
-Writes floater_result/benchmark/report.md in the working directory, with pictures and CSV files.
+Writes floater_result/benchmark/report.md in the working directory, with pictures.
 CLOUD: point clouds that are discs (.pcd, .ply or .obj); default: seven of the folder PCL_FLOATER_DATA, and a generated
        finger, whose tip is about as dense in the plane as the densest part of the largest model of TW 385.
 """
@@ -136,24 +136,24 @@ def measure(tools, cloud, folder, repeats):
 def write_tables(report, rows, repeats):
     report.add("## Table 1: bytes per point\n\nPeak of the factorization by UMFPACK, and the formula of TW 385, "
                "(218 + 84 gamma) N, for all of the run without that peak.")
-    report.table("table1_memory", ["cloud", "points", "factorization, measured", "gamma", "formula"], rows["memory"])
+    report.table(["cloud", "points", "factorization, measured", "gamma", "formula"], rows["memory"])
     report.add("## Table 2: fill-in\n\ngamma = nnz (L + U) / nnz (A): of UMFPACK by ordering, of SuperLU, and of the "
                f"incomplete factors of ILUT (15, 1e-2). Reverse Cuthill-McKee: up to {LARGEST_BAND:,} unknowns.")
-    report.table("table2_fill_in", ["cloud", "unknowns", "nnz (A)", *ORDERINGS, "SuperLU", "ILUT"], rows["fill_in"])
+    report.table(["cloud", "unknowns", "nnz (A)", *ORDERINGS, "SuperLU", "ILUT"], rows["fill_in"])
     report.add(f"## Table 3: seconds\n\nWall time, runs: {repeats}, of which the shortest is taken. Neighbours serve "
                "boundary and weights alike. Solvers: ordering, factorization or preconditioner, both right-hand sides. "
                "BiCGSTAB: with ILUT (15, 1e-2), until its residual is 1e-15 of |b|; iterations for u and v. Total: "
                "up to the parameters with UMFPACK, as in TW 385.")
     columns = ["cloud", "points", "triangles", *STAGES, "BiCGSTAB", "iterations", "BiCGSTAB / UMFPACK", "SuperLU",
                "total", "Delaunay"]
-    report.table("table3_times", columns, rows["times"])
+    report.table(columns, rows["times"])
     report.add("As printed in TW 385, on a Pentium 4 with 2.4 GHz. BUNNY is the same scan as bunny with 101 points "
                "more; the other models are not ours. BiCGSTAB above is that of Eigen.")
-    report.table("table3_printed", ["model", *columns[1:3], *columns[4:10], "total"],
+    report.table(["model", *columns[1:3], *columns[4:10], "total"],
                  [line.split() for line in PRINTED.splitlines()])
     report.add("Residuals |b - A u| / |b| computed from the solutions, the larger of both sides; of UMFPACK, also the "
                "largest entry, and the reciprocal condition min |U| / max |U| of the diagonal.")
-    report.table("table3_residuals", ["cloud", *SOLVERS, "max |b - A u|", "condition"], rows["residuals"])
+    report.table(["cloud", *SOLVERS, "max |b - A u|", "condition"], rows["residuals"])
 
 
 def main():
