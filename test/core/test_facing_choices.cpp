@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What decides which side of a mesh is its front: normals of the input, and what the options ask
 // for.
+#include "points/point_samples.h"
 #include "scan_samples.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -35,16 +36,13 @@ sheet (const std::function<double (double)>& height)
   return points;
 }
 
-// The lower half of a sphere, open at the top.
+// The lower half of a sphere of radius 1, open at the top.
 Positions
 bowl ()
 {
-  Positions points = samples::disc (0.05, 3).positions;
-  for (Vector3d& p : points) {
-    const double angle = 0.5 * PI * p.norm (), radius = std::max (1e-9, p.norm ());
-    p = {p.x () / radius * std::sin (angle), p.y () / radius * std::sin (angle), -std::cos (angle)};
-  }
-  return points;
+  constexpr std::size_t POINTS = 1300;
+  return samples::placed (samples::surface (SurfaceKind::HEMISPHERE, POINTS), Vector3d::Zero (),
+                          -1.0 / std::sqrt (static_cast<double> (POINTS) / (2.0 * PI)));
 }
 
 // What may tell the front.

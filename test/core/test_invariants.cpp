@@ -62,6 +62,19 @@ frame (bool is_large)
   return points;
 }
 
+// Every point three times, up to a fifth of the spacing apart.
+Positions
+stacks (bool is_large)
+{
+  Positions points = noisy (SurfaceKind::TORUS, 0.0, 3000) (is_large);
+  RandomStream random (3);
+  points.reserve (3 * points.size ());
+  for (std::size_t p = 0, all = 2 * points.size (); p < all; ++p)
+    points.emplace_back (points[p] + 0.05 * Eigen::Vector3d (random.uniform (), random.uniform (),
+                                                             random.uniform ()));
+  return points;
+}
+
 std::vector<Invariant>
 invariants ()
 {
@@ -71,6 +84,7 @@ invariants ()
                              {"normals", noisy (SurfaceKind::HEMISPHERE, 0.0, 5000)},
                              {"trimmed", noisy (SurfaceKind::FOLDED_SHEET, 0.1, 5000)},
                              {"balls", noisy (SurfaceKind::TORUS, 0.0, 5000)},
+                             {"stacks", stacks},
                              {"view", frame},
                              {"disc", noisy (SurfaceKind::FINGER, 0.0, 20000)},
                              {"disc_consensus_loop", noisy (SurfaceKind::HEMISPHERE, 0.0, 3000)},
@@ -87,6 +101,8 @@ invariants ()
       one.moved_share = 0.06;
     if (name == "holes") // fillings are sampled anew, and repaired
       one.moved_share = 0.12;
+    if (name == "stacks") // they come into the mesh along a curve that follows the axes
+      one.moved_share = 0.5;
     if (name == "view") // the place that is found decides diagonals
       one.moved_share = 0.5;
     if (name == "holes")

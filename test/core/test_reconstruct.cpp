@@ -87,35 +87,6 @@ TEST (Reconstruct, DeepFingersAreDiscsWithShortEdges)
   }
 }
 
-TEST (Reconstruct, PointsInDoublePrecision)
-{
-  // Centimetres apart on a map, where floats are half a metre apart.
-  Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 2000);
-  for (Eigen::Vector3d& p : cloud)
-    p = Eigen::Vector3d (5e5, 5.5e6, 300.0) + 0.02 * p;
-  const Result result = reconstruct (cloud);
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  EXPECT_TRUE (result.report.warnings.empty ()) << result.report.warnings.front ();
-  EXPECT_EQ (result.triangles, reconstruct (asInput (cloud), {}).triangles);
-  EXPECT_EQ (result.report.statistics.cloud_points, 2000U);
-  EXPECT_EQ (result.report.statistics.used_points, 2000U);
-  Options options;
-  options.trimming.maximum_edge_length = 1e-9;
-  EXPECT_EQ (reconstruct (std::move (cloud), options).report.status, RunStatus::DEGENERATE);
-}
-
-TEST (Reconstruct, TheUsersLoopIsTheBoundary)
-{
-  samples::Sheet sheet = samples::disc (0.07, 5);
-  Options options = discOptions ();
-  options.disc.boundary.loop = samples::indices (sheet.border);
-  std::rotate (options.disc.boundary.loop.begin (), options.disc.boundary.loop.begin () + 11,
-               options.disc.boundary.loop.end ());
-  const Result result = reconstruct (asInput (sheet.positions), options);
-  expectDisc (result, sheet.positions.size ());
-  EXPECT_EQ (result.report.loop, options.disc.boundary.loop);
-}
-
 Options
 published ()
 {
@@ -286,56 +257,15 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
   EXPECT_GT (nonzeros (Neighborhood::BALL, 3.5), 1.2 * ball);
 }
 
-TEST (Reconstruct, DuplicatesAndNonFinitePointsAreReported)
-{
-  Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 800);
-  const auto count = static_cast<Index> (cloud.size ());
-  const Result expected = reconstruct (asInput (cloud), discOptions ());
-  cloud.push_back (cloud[17]);
-  cloud.push_back (cloud[3]);
-  cloud.emplace_back (0.0, std::numeric_limits<double>::quiet_NaN (), 0.0);
-  const Result result = reconstruct (asInput (cloud), discOptions ());
-  expectDisc (result, count);
-  EXPECT_EQ (result.triangles, expected.triangles);
-  const std::vector<std::array<Index, 2>> duplicates = {{count, 17}, {count + 1, 3}};
-  EXPECT_EQ (result.report.duplicates, duplicates);
-  EXPECT_EQ (result.report.non_finite, (std::vector<Index>{count + 2}));
-  EXPECT_EQ (result.report.statistics.duplicate_points, 2U);
-  EXPECT_EQ (result.report.statistics.non_finite_points, 1U);
-  EXPECT_EQ (result.report.statistics.selected_points, count + 3U);
-  ASSERT_EQ (result.report.parameters.size (), count + 3U);
-  EXPECT_EQ (result.report.parameters[count], result.report.parameters[17]);
-  EXPECT_TRUE (result.report.parameters[count + 2].hasNaN ());
-}
-
-TEST (Reconstruct, ASelectionOfALargerCloud)
-{
-  const Positions cloud = surface (SurfaceKind::HEIGHT_FIELD, 1200);
-  const Result expected = reconstruct (asInput (cloud), discOptions ());
-  Input input = asInput (cloud);
-  input.cloud_size = 3 * cloud.size () + 1;
-  for (Index& p : input.cloud_index)
-    p = 3 * p + 1;
-  Result result = reconstruct (input, discOptions ());
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
-  EXPECT_EQ (result.report.statistics.cloud_points, input.cloud_size);
-  EXPECT_EQ (result.report.statistics.selected_points, cloud.size ());
-  ASSERT_EQ (result.report.parameters.size (), input.cloud_size);
-  for (std::size_t p = 0; p < input.cloud_size; ++p)
-    EXPECT_EQ (result.report.parameters[p].allFinite (), p % 3 == 1);
-  for (Triangle& t : result.triangles)
-    for (Index& p : t)
-      p = (p - 1) / 3;
-  EXPECT_EQ (result.triangles, expected.triangles);
-}
-
 TEST (Reconstruct, FewestPoints)
 {
   const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}};
   expectDisc (reconstruct (asInput (square), discOptions ()), 4);
   Options options = discOptions ();
-  options.disc.boundary.loop = {0, 1, 2, 3};
-  expectDisc (reconstruct (asInput (square), options), 4);
+  options.disc.boundary.loop = {2, 3, 0, 1};
+  const Result given = reconstruct (asInput (square), options);
+  expectDisc (given, 4);
+  EXPECT_EQ (given.report.loop, options.disc.boundary.loop);
   Positions with_middle = square;
   with_middle.emplace_back (0.4, 0.6, 0.1);
   expectDisc (reconstruct (asInput (with_middle), options), 5);

@@ -3,6 +3,7 @@
 // The linear system, and all solvers in all orders, on systems whose solution is known.
 #include "floater/solvers/solver_parts.h"
 #include "floater/weights.h"
+#include "options/option_rows.h"
 #include "samples.h"
 
 #include <Eigen/LU>
@@ -15,9 +16,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr Ordering ALL_ORDERINGS[] = {Ordering::AUTOMATIC, Ordering::AMD, Ordering::METIS,
-                                      Ordering::NATURAL, Ordering::REVERSE_CUTHILL_MCKEE};
-
 bool
 isIterative (Solver solver)
 {
@@ -42,13 +40,6 @@ choice (Solver solver, Ordering ordering = Ordering::AUTOMATIC)
   options.ordering = ordering;
   options.max_iterations = 100000; // enough for Gauss-Seidel on what is solved here
   return options;
-}
-
-std::string
-nameOf (Solver solver, Ordering ordering = Ordering::AUTOMATIC)
-{
-  return "solver " + std::to_string (static_cast<int> (solver)) + " ordering " +
-         std::to_string (static_cast<int> (ordering));
 }
 
 // The system of all interior points of a flat square with so many points at a side, with the loop in its place.
@@ -159,8 +150,9 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
   systems[5].rhs.col (0).setZero ();
   for (std::size_t i = 0; i < systems.size (); ++i)
     for (const Solver solver : allSolvers ())
-      for (const Ordering ordering : ALL_ORDERINGS) {
-        SCOPED_TRACE (std::to_string (i) + ": " + nameOf (solver, ordering));
+      for (const auto& [name, ordering] : ORDERING_CHOICES) {
+        SCOPED_TRACE (testing::Message ()
+                      << i << ", " << static_cast<int> (solver) << ", " << name);
         const LinearSystem& system = systems[i];
         const Solution solution = solve (system, choice (solver, ordering), 1);
         ASSERT_FALSE (solution.problem) << solution.problem.message;
@@ -196,7 +188,7 @@ TEST (Solvers, UseTheOrderThatIsAskedFor)
   for (const Solver solver : allSolvers ()) {
     if (isIterative (solver))
       continue;
-    SCOPED_TRACE (nameOf (solver));
+    SCOPED_TRACE (static_cast<int> (solver));
     const auto fill = [&] (Ordering ordering) {
       return solve (system, choice (solver, ordering), 1).nnz_factors;
     };
@@ -249,7 +241,7 @@ TEST (Solvers, RefuseWhatTheyCannotSolve)
   without_weights.matrix.row (11) *= 0.0;
   infinite.rhs (3, 1) = std::numeric_limits<double>::quiet_NaN ();
   for (const Solver solver : allSolvers ()) {
-    SCOPED_TRACE (nameOf (solver));
+    SCOPED_TRACE (static_cast<int> (solver));
     SolverOptions options = choice (solver);
     options.max_iterations = 50;
     if (!isIterative (solver))

@@ -27,9 +27,7 @@ Positions
 strewn (Strewn kind, std::size_t count, std::uint64_t seed)
 {
   RandomStream random (seed);
-  const auto normal = [&] {
-    return Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
-  };
+  const auto normal = [&random] { return samples::normalVector (random); };
   Positions positions = samples::randomPoints (count, seed);
   const Positions centres = samples::randomPoints (count / 8, seed + 1);
   const auto side = static_cast<std::size_t> (std::cbrt (static_cast<double> (count)));
@@ -72,7 +70,7 @@ reportOn (const Positions& positions, ScatterPolicy policy = ScatterPolicy::KEEP
 Positions
 sphereAndBush (std::size_t on_sphere, std::size_t in_bush)
 {
-  Positions positions = samples::surface (SurfaceKind::SPHERE, on_sphere, 0.0);
+  Positions positions = samples::surface (SurfaceKind::SPHERE, on_sphere);
   for (const Eigen::Vector3d& p : strewn (Strewn::BOX, in_bush, 4))
     positions.emplace_back (0.3 * p + Eigen::Vector3d (2.0, 0.0, 0.0));
   return positions;
@@ -87,33 +85,6 @@ TEST (Scatter, IsFoundWhateverItsKind)
           reportOn (strewn (static_cast<Strewn> (kind), 8000, seed)).scatter.size ();
       EXPECT_GE (found, 8000U * 97 / 100);
     }
-}
-
-TEST (Scatter, NoPointOfASurfaceIsHoweverNoisy)
-{
-  for (const double noise : {0.0, 0.3, 1.0})
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      SCOPED_TRACE (noise);
-      Positions plane = samples::randomPoints (8000, seed);
-      RandomStream random (seed);
-      for (Eigen::Vector3d& p : plane)
-        p.z () = noise / std::sqrt (8000.0) * random.normal ();
-      EXPECT_TRUE (reportOn (plane).scatter.empty ());
-    }
-  EXPECT_TRUE (reportOn (samples::surface (SurfaceKind::SPHERE, 400, 0.0)).scatter.empty ());
-}
-
-// Walls that are thinner than their spacing look uneven, but their stars agree.
-TEST (Scatter, ThinWallsAreNone)
-{
-  for (const double thickness : {0.5, 1.0, 2.0}) {
-    Positions wall;
-    for (int x = 0; x < 60; ++x)
-      for (int y = 0; y < 60; ++y)
-        for (const double z : {0.0, thickness})
-          wall.emplace_back (x + 0.31 * (y % 3) + (z > 0.0 ? 0.5 : 0.0), y, z);
-    EXPECT_TRUE (reportOn (wall).scatter.empty ()) << thickness;
-  }
 }
 
 TEST (Scatter, IsLeftOutUnlessItIsToBeKept)
@@ -148,39 +119,46 @@ TEST (Scatter, SmallBushesStay)
   EXPECT_GT (reportOn (positions, ScatterPolicy::DROP).scatter.size (), 350U);
 }
 
-// Two balls, one in the other, look as uneven as leaves, but have two dimensions.
-TEST (Scatter, ThinThingsStayHoweverNoisy)
+TEST (Scatter, SurfacesAreNoneHoweverNoisyOrThin)
 {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    RandomStream random (seed);
-    Positions shells;
-    for (const double radius : {1.0, 0.85})
-      for (const Eigen::Vector3d& p : samples::surface (SurfaceKind::SPHERE, 1000, 0.0))
-        shells.push_back (radius * (p + 0.3 * Eigen::Vector3d (random.normal (), random.normal (),
-                                                               random.normal ())));
-    EXPECT_TRUE (reportOn (shells, ScatterPolicy::AUTO).scatter.empty ());
+  std::vector<std::pair<const char*, Positions>> clouds{
+      {"small sphere", samples::surface (SurfaceKind::SPHERE, 400)}};
+  for (const double thickness : {0.5, 1.0, 2.0}) { // below its spacing: uneven, but stars agree
+    clouds.push_back ({"wall", {}});
+    for (int x = 0; x < 60; ++x)
+      for (int y = 0; y < 60; ++y)
+        for (const double z : {0.0, thickness})
+          clouds.back ().second.emplace_back (x + 0.31 * (y % 3) + (z > 0.0 ? 0.5 : 0.0), y, z);
   }
-}
-
-// In a ball of 320 points around any of theirs, three plates are hardly less than a volume.
-TEST (Scatter, PlatesStay)
-{
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     RandomStream random (seed);
-    Positions plates = samples::randomPoints (1500, seed);
-    for (std::size_t i = 0; i < plates.size (); ++i) {
-      plates[i] = std::sqrt (500.0) * plates[i]; // spacings
-      plates[i].z () = 2.5 * static_cast<double> (i % 3);
-      plates[i] += 0.3 * Eigen::Vector3d (random.normal (), random.normal (), random.normal ());
+    for (const double noise : {0.0, 0.3, 1.0}) {
+      clouds.emplace_back ("plane", samples::randomPoints (8000, seed));
+      for (Eigen::Vector3d& p : clouds.back ().second)
+        p.z () = noise / std::sqrt (8000.0) * random.normal ();
     }
-    EXPECT_TRUE (reportOn (plates, ScatterPolicy::AUTO).scatter.empty ());
+    // Two balls, one in the other, look as uneven as leaves, but have two dimensions.
+    clouds.push_back ({"shells", {}});
+    for (const double radius : {1.0, 0.85})
+      for (const Eigen::Vector3d& p : samples::surface (SurfaceKind::SPHERE, 1000))
+        clouds.back ().second.emplace_back (radius * (p + 0.3 * samples::normalVector (random)));
+    // In a ball of 320 points around any of theirs, three plates are hardly less than a volume.
+    clouds.emplace_back ("plates", samples::randomPoints (1500, seed));
+    for (std::size_t i = 0; i < 1500; ++i) {
+      Eigen::Vector3d& p = clouds.back ().second[i];
+      p = Eigen::Vector3d (std::sqrt (500.0) * p.x (), std::sqrt (500.0) * p.y (),
+                           2.5 * static_cast<double> (i % 3)) +
+          0.3 * samples::normalVector (random);
+    }
   }
+  for (const auto& [name, positions] : clouds)
+    EXPECT_TRUE (reportOn (positions, ScatterPolicy::AUTO).scatter.empty ()) << name;
 }
 
 // A few points far behind a ball, ever farther apart, have most of the area; a coarse wall is one.
 TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
 {
-  const Positions ball = samples::placed (samples::surface (SurfaceKind::SPHERE, 2000, 0.0),
+  const Positions ball = samples::placed (samples::surface (SurfaceKind::SPHERE, 2000),
                                           Eigen::Vector3d::Zero (), 0.08); // radius 1
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     RandomStream random (seed);

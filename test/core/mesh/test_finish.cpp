@@ -22,19 +22,12 @@ using samples::unordered;
 using Places = std::vector<Eigen::Vector2d>;
 
 Places
-planView (const Positions& positions, double stretch = 1.0)
+planView (const Positions& positions)
 {
   Places uv;
   for (const Eigen::Vector3d& p : positions)
-    uv.emplace_back (p.x (), stretch * p.y ());
+    uv.emplace_back (p.x (), p.y ());
   return uv;
-}
-
-std::vector<Eigen::Vector3f>
-upward (std::size_t count)
-{
-  std::vector<Eigen::Vector3f> normals (count, Eigen::Vector3f::UnitZ ());
-  return normals;
 }
 
 // A round sheet as the library orders its points.
@@ -58,46 +51,11 @@ struct SortedDisc
   }
 };
 
-// How far a point is inside the circle through the corners of a flat triangle, as a share of the
-// squared radius. Negative outside.
-double
-depthInCircle (const Positions& at, const Triangle& t, Index p)
-{
-  const Eigen::Vector3d a = at[t[1]] - at[t[0]], b = at[t[2]] - at[t[0]];
-  const Eigen::Vector3d centre = (a.squaredNorm () * b - b.squaredNorm () * a).cross (a.cross (b)) /
-                                 (2.0 * a.cross (b).squaredNorm ());
-  return 1.0 - (at[p] - at[t[0]] - centre).squaredNorm () / centre.squaredNorm ();
-}
-
-TEST (Flips, AreDelaunayInThePlane)
-{
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Sheet sheet = samples::disc (0.07, seed);
-    const std::vector<Index> loop = samples::indices (sheet.border);
-    const std::vector<Eigen::Vector3f> normals = upward (sheet.positions.size ());
-    TriangleMesh mesh = triangulatePlane (planView (sheet.positions, 0.25), loop);
-    const std::set<Triangle> before = unordered (mesh.triangles);
-    const std::size_t flips = flipEdges (mesh, TriangleCost (sheet.positions, normals), 1);
-    EXPECT_GT (flips, 100U);
-    EXPECT_NE (unordered (mesh.triangles), before);
-    EXPECT_EQ (expectDisc (mesh, sheet.positions.size ()), loop);
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const MeshEdge across = mesh.mate ({t, side});
-        if (across.triangle != NONE) {
-          EXPECT_LT (depthInCircle (sheet.positions, mesh.triangles[t], mesh.corner (across)),
-                     1e-6);
-        }
-      }
-    EXPECT_EQ (flipEdges (mesh, TriangleCost (sheet.positions, normals), 1), 0U);
-  }
-}
-
 TEST (Insertion, PutsEveryPointIn)
 {
   const SortedDisc disc (0.07, 7);
   const Positions& positions = disc.made.points.positions;
-  const std::vector<Eigen::Vector3f> normals = upward (positions.size ());
+  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
   Places some = planView (positions);
   RandomStream random (8);
   std::size_t missing = 0;

@@ -204,19 +204,19 @@ TEST (Charts, AreCutInTwoIfTheyHaveToBe)
 // Facets of several triangles, as large meshes have them.
 TEST (Charts, FacetsAreDiscs)
 {
-  const facing_cases::FacingCase body =
-      facing_cases::makeFacingCase (facing_cases::Family::WINGED_BODY, 3);
+  const Mesh body = makeFacingCase (facing_cases::FAMILIES[0], 3);
+  const TriangleMesh mesh = connected (body);
   ChartLimits limits;
   limits.facets = 200;
   const MeshComponents facets =
-      growFacets (body.mesh, body.positions, areaVectors (body.mesh, body.positions, 1), limits, 1);
-  EXPECT_GT (facets.count, body.mesh.triangles.size () / limits.most_in_facet);
+      growFacets (mesh, body.positions, areaVectors (mesh, body.positions, 1), limits, 1);
+  EXPECT_GT (facets.count, body.triangles.size () / limits.most_in_facet);
   std::vector<std::vector<Index>> lists (facets.count);
   for (std::size_t t = 0; t < facets.of_triangle.size (); ++t)
     lists[facets.of_triangle[t]].push_back (static_cast<Index> (t));
   for (const std::vector<Index>& facet : lists) {
     EXPECT_LE (facet.size (), limits.most_in_facet);
-    EXPECT_FALSE (makeChartMesh (body.mesh.triangles, facet, body.positions).loop.empty ());
+    EXPECT_FALSE (makeChartMesh (body.triangles, facet, body.positions).loop.empty ());
   }
 }
 
@@ -265,6 +265,13 @@ TEST (Smoothing, LevelsSteps)
   };
   EXPECT_GT (steepest (steps.positions), 0.9);
   EXPECT_LT (steepest (smoothNoise (connected (steps), steps.positions, {}, 1)), 0.85);
+}
+
+TEST (Rounding, WhatCannotBeRightedIsCounted)
+{
+  // The last triangle is upside down by far, whichever corner moves a little.
+  std::vector<Eigen::Vector2f> uv{{0, 0}, {1, 0}, {1, 1}, {0.5, -0.5}};
+  EXPECT_EQ (repairRounding ({{0, 1, 2}, {0, 1, 3}}, uv).size (), 1U);
 }
 
 TEST (Untangling, UndoesDetailsOnly)

@@ -52,6 +52,16 @@ distance (const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vecto
   return (a + t * along - p).norm ();
 }
 
+std::vector<Corners>
+cornersOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2f>& uv)
+{
+  std::vector<Corners> corners;
+  corners.reserve (triangles.size ());
+  for (const auto& [a, b, c] : triangles)
+    corners.push_back ({uv[a], uv[b], uv[c]});
+  return corners;
+}
+
 // Pairs of triangles whose insides have a point in common, found exactly.
 std::size_t
 countOverlaps (const std::vector<Corners>& corners)
@@ -195,7 +205,7 @@ checkFigures (const Mesh& mesh, const TextureCoordinates& texture, std::ostream&
 // are no disc, triangles that are flipped, overlaps, charts nearer to each other than the gutter,
 // seams, figures.
 std::string
-flawsOf (const Mesh& mesh, const TextureCoordinates& texture, bool with_distances)
+flawsOf (const Mesh& mesh, const TextureCoordinates& texture)
 {
   std::ostringstream flaws;
   if (texture.status != RunStatus::SUCCESS)
@@ -204,20 +214,17 @@ flawsOf (const Mesh& mesh, const TextureCoordinates& texture, bool with_distance
   if (!flaws.str ().empty ())
     return flaws.str ();
   checkCharts (mesh.triangles, texture, flaws);
-  std::vector<Corners> corners;
-  std::size_t flipped = 0;
-  for (const Triangle& t : texture.corners) {
-    corners.push_back (
-        {texture.coordinates[t[0]], texture.coordinates[t[1]], texture.coordinates[t[2]]});
-    const Corners& c = corners.back ();
-    flipped += turn (c[0], c[1], c[2]) == CGAL::LEFT_TURN ? 0 : 1;
-  }
+  const std::vector<Corners> corners = cornersOf (texture.corners, texture.coordinates);
+  const auto flipped = static_cast<std::size_t> (
+      std::count_if (corners.begin (), corners.end (),
+                     [] (const Corners& c) { return turn (c[0], c[1], c[2]) != CGAL::LEFT_TURN; }));
   if (flipped != 0 || texture.flipped != flipped)
     flaws << flipped << " triangles are flipped; told: " << texture.flipped << "\n";
   if (const std::size_t overlaps = countOverlaps (corners))
     flaws << overlaps << " overlaps\n";
   checkFigures (mesh, texture, flaws);
-  if (with_distances && !(leastDistance (texture) > 0.99 * texture.gutter))
+  constexpr std::size_t FEW = 1500; // for all distances
+  if (corners.size () < FEW && !(leastDistance (texture) > 0.99 * texture.gutter))
     flaws << "charts are " << leastDistance (texture) << " apart, less than the gutter of "
           << texture.gutter << "\n";
   return flaws.str ();
@@ -225,10 +232,10 @@ flawsOf (const Mesh& mesh, const TextureCoordinates& texture, bool with_distance
 
 // With nothing wrong with it.
 TextureCoordinates
-textureOf (const Mesh& mesh, const TextureOptions& options = {}, bool with_distances = false)
+textureOf (const Mesh& mesh, const TextureOptions& options = {})
 {
   TextureCoordinates texture = computeTextureCoordinates (mesh.positions, mesh.triangles, options);
-  EXPECT_EQ (flawsOf (mesh, texture, with_distances), "");
+  EXPECT_EQ (flawsOf (mesh, texture), "");
   return texture;
 }
 
@@ -237,9 +244,7 @@ TEST (TextureCoordinates, PlaneIsOneChartWithoutStretch)
   const TextureCoordinates texture = textureOf (samples::sheet (12));
   EXPECT_EQ (texture.chart_count, 1U);
   EXPECT_TRUE (texture.seams.empty ());
-  EXPECT_EQ (texture.seam_length, 0.0);
   EXPECT_NEAR (texture.stretch, 1.0, 1e-5);
-  EXPECT_NEAR (texture.largest_stretch, 1.0, 1e-3);
   EXPECT_GT (texture.area_used, 0.97);
 }
 
@@ -248,7 +253,7 @@ TEST (TextureCoordinates, ARoofIsCutAtItsRidge)
   Mesh roof = samples::sheet (10); // two slopes of 45 degrees
   for (Eigen::Vector3d& p : roof.positions)
     p.z () = -std::abs (p.x () - 0.5);
-  const TextureCoordinates texture = textureOf (roof, {}, true);
+  const TextureCoordinates texture = textureOf (roof);
   EXPECT_EQ (texture.chart_count, 2U);
   EXPECT_EQ (texture.seams.size (), 10U);
   EXPECT_NEAR (texture.seam_length, 1.0, 1e-9);
@@ -259,13 +264,13 @@ TEST (TextureCoordinates, ARoofIsCutAtItsRidge)
 
 TEST (TextureCoordinates, TorusAndHolesAndManyComponents)
 {
-  textureOf (samples::torus (40, 16), {}, true);
-  textureOf (samples::annulus (24), {}, true);
+  textureOf (samples::torus (40, 16));
+  textureOf (samples::annulus (24));
   Mesh many = samples::tetrahedron ();
   for (int i = 0; i < 30; ++i)
     many = samples::beside (
         i % 2 == 0 ? samples::sheet (1 + static_cast<Index> (i % 5)) : samples::annulus (5), many);
-  const TextureCoordinates texture = textureOf (many, {}, true);
+  const TextureCoordinates texture = textureOf (many);
   EXPECT_GE (texture.chart_count, 31U);
   EXPECT_GT (texture.area_used, 0.4);
 }
@@ -299,8 +304,7 @@ TEST (TextureCoordinates, DegenerateMeshes)
 // A disc that would be cut, in one piece.
 TEST (TextureCoordinates, WholeDiscs)
 {
-  const facing_cases::FacingCase made = facing_cases::makeBowl (0.9);
-  const Mesh bowl{made.positions, made.mesh.triangles};
+  const Mesh bowl = facing_cases::makeBowl (0.9);
   EXPECT_GT (textureOf (bowl).chart_count, 1U);
   TextureOptions options;
   options.whole_discs = true;
@@ -315,11 +319,9 @@ TEST (TextureCoordinates, WholeDiscs)
 // Bodies, shells, terrain, torn sheets: open and closed, of one and of many components.
 TEST (TextureCoordinates, OfRandomSurfacesHaveNoFlaw)
 {
-  for (int family = 0; family < static_cast<int> (facing_cases::Family::COUNT); ++family) {
-    const facing_cases::FacingCase made =
-        facing_cases::makeFacingCase (static_cast<facing_cases::Family> (family), 3);
-    SCOPED_TRACE (facing_cases::familyName (static_cast<facing_cases::Family> (family)));
-    const Mesh mesh{made.positions, made.mesh.triangles};
+  for (const facing_cases::Family& family : facing_cases::FAMILIES) {
+    SCOPED_TRACE (family.name);
+    const Mesh mesh = makeFacingCase (family, 3);
     const TextureCoordinates texture = textureOf (mesh);
     EXPECT_LT (texture.stretch, 1.2);
     EXPECT_LT (texture.chart_count, 20U + mesh.triangles.size () / 20U);
@@ -377,7 +379,6 @@ TEST (TextureCoordinates, ProgressAndCancellation)
   textureOf (mesh, options);
   ASSERT_FALSE (fractions.empty ());
   EXPECT_TRUE (std::is_sorted (fractions.begin (), fractions.end ()));
-  EXPECT_GE (fractions.front (), 0.0);
   EXPECT_EQ (fractions.back (), 1.0);
   ASSERT_GT (calls, 0);
   const int all = calls / 2; // another run may ask less often
@@ -391,13 +392,6 @@ TEST (TextureCoordinates, ProgressAndCancellation)
   options.cancelled_callback = [] () -> bool { throw std::runtime_error ("broken"); };
   EXPECT_EQ (computeTextureCoordinates (mesh.positions, mesh.triangles, options).status,
              RunStatus::INTERNAL_ERROR);
-}
-
-TEST (Rounding, WhatCannotBeRightedIsCounted)
-{
-  // The last triangle is upside down by far, whichever corner moves a little.
-  std::vector<Eigen::Vector2f> uv{{0, 0}, {1, 0}, {1, 1}, {0.5, -0.5}};
-  EXPECT_EQ (repairRounding ({{0, 1, 2}, {0, 1, 3}}, uv).size (), 1U);
 }
 
 // The inner points of a grid that is only some steps of single precision wide.
@@ -414,12 +408,7 @@ TEST (Rounding, FlippedTrianglesAreRighted)
     const Eigen::Array2d steps = 8.0 * at + ((is_inner ? 12.0 : 0.0) * (noise - 0.5)).round ();
     uv.emplace_back ((0.5 + 0x1p-24 * steps).cast<float> ());
   }
-  const auto overlaps = [&] {
-    std::vector<Corners> corners;
-    for (const Triangle& t : sheet.triangles)
-      corners.push_back ({uv[t[0]], uv[t[1]], uv[t[2]]});
-    return countOverlaps (corners);
-  };
+  const auto overlaps = [&] { return countOverlaps (cornersOf (sheet.triangles, uv)); };
   EXPECT_GT (overlaps (), 0U);
   EXPECT_EQ (repairRounding (sheet.triangles, uv).size (), 0U);
   EXPECT_EQ (overlaps (), 0U);

@@ -3,6 +3,7 @@
 // The place of a sensor: what points tell of their rays, of rows, and of where it was.
 #include "view/ray_evidence.h"
 
+#include "points/point_samples.h"
 #include "scan_samples.h"
 #include "view/view_method.h"
 #include "view/viewpoint_search.h"
@@ -15,12 +16,7 @@ using samples::DepthNoise;
 using samples::Positions;
 using samples::Raster;
 using samples::Scan;
-
-Points
-pointsOf (const Positions& positions)
-{
-  return makePoints (positions, samples::indices (positions.size ()), 1);
-}
+using samples::workingPoints;
 
 Viewpoint
 inPoints (const Points& points, const Eigen::Vector3d& viewpoint, bool is_far)
@@ -32,7 +28,7 @@ inPoints (const Points& points, const Eigen::Vector3d& viewpoint, bool is_far)
 bool
 isSeen (const Positions& positions, const Eigen::Vector3d& viewpoint, bool is_far = false)
 {
-  const Points points = pointsOf (positions);
+  const Points points = workingPoints (positions);
   return isSeenFrom (points, inPoints (points, viewpoint, is_far), {}, 2);
 }
 
@@ -67,7 +63,7 @@ TEST_P (RastersAndSeeds, TheViewpointIsFound)
   const Raster raster = std::get<0> (GetParam ());
   const bool is_hard = raster == Raster::RINGS || raster == Raster::PARALLEL;
   const Scan made = scan ({is_hard ? 0.001 : 0.01, 0.0});
-  const Points points = pointsOf (made.points);
+  const Points points = workingPoints (made.points);
   StarSettings settings;
   settings.reach_beyond = true;
   const LocalPlanes planes =
@@ -149,7 +145,7 @@ constexpr std::size_t SAMPLES = 200;
 RowEvidence
 rowsOf (const Positions& positions)
 {
-  const Points points = pointsOf (positions);
+  const Points points = workingPoints (positions);
   return findRows (points, findNeighbors (points, {}, 1), SAMPLES);
 }
 
@@ -211,7 +207,7 @@ TEST (ViewpointSearch, FindsNoneOverARasterOfHeights)
         const double u = column / 120.0, v = row / 120.0;
         raster.emplace_back (u, v, height * std::sin (5.0 * u + phase) * std::cos (4.0 * v));
       }
-    EXPECT_FALSE (searchEven (pointsOf (raster))) << seed;
+    EXPECT_FALSE (searchEven (workingPoints (raster))) << seed;
   }
 }
 

@@ -1,21 +1,47 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress of a run, its clock and its cancellation.
-#include "core/run_context.h"
-
+// Parallel loops; progress of a run, its clock and its cancellation.
 #include "core/parallel.h"
-#include "poll_wait.h"
+#include "core/run_context.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <chrono>
-#include <thread>
-#include <vector>
+#include <new>
+#include <stdexcept>
 
 namespace pcl::floater {
 namespace {
-using samples::waitUntilAPollIsDue;
+TEST (Parallel, TasksAndRangesCoverAllOnce)
+{
+  for (const int threads : {1, 2, 7})
+    for (const std::size_t count : {0U, 1U, 2U, 5U, 1000U, 1023U, 1024U, 1025U, 10000U}) {
+      std::vector<std::atomic<int>> runs (count);
+      parallelTasks (threads, count, [&runs] (std::size_t i) { ++runs[i]; });
+      parallelRanges (threads, count, [&] (std::size_t first, std::size_t last) {
+        EXPECT_EQ (first % RANGE_LENGTH, 0U);
+        EXPECT_EQ (last, std::min (count, first + RANGE_LENGTH));
+        for (std::size_t i = first; i < last; ++i)
+          runs[i] += 10;
+      });
+      for (const std::atomic<int>& of_one : runs)
+        ASSERT_EQ (of_one, 11);
+    }
+}
+
+TEST (Parallel, RethrowsWhatATaskThrows)
+{
+  for (const int threads : {1, 2, 5}) {
+    EXPECT_THROW (parallelTasks (threads, 8, [] (std::size_t) { throw std::bad_alloc (); }),
+                  std::bad_alloc);
+    std::atomic<int> begun{0};
+    const auto failAtOnce = [&begun] (std::size_t) {
+      ++begun;
+      throw std::runtime_error ("in a task");
+    };
+    EXPECT_THROW (parallelTasks (threads, 100000, failAtOnce), std::runtime_error);
+    EXPECT_LE (begun, threads) << "no task begins after the first error";
+  }
+}
 
 // Tasks that last until the run is cancelled end with it, on whatever thread they are.
 TEST (RunMonitor, CancellationReachesTasksThatAreUnderWay)
@@ -60,6 +86,27 @@ TEST (RunMonitor, SlowCallbacksAreCalledSeldom)
   while (std::chrono::steady_clock::now () < end)
     progress.reach (1);
   EXPECT_EQ (calls, 1);
+}
+
+// Returns when every monitor that has asked by now would ask again. A monitor of its own tells, so
+// that nothing is assumed of the time between two questions.
+void
+waitUntilAPollIsDue ()
+{
+  int questions = 0;
+  Statistics statistics;
+  RunMonitor monitor ({{},
+                       {},
+                       [&questions] {
+                         ++questions;
+                         return false;
+                       }},
+                      statistics);
+  monitor.beginStage (Stage::WORKING_SET); // asks
+  while (questions < 2) {
+    std::this_thread::yield ();
+    monitor.pollNowAndThen ();
+  }
 }
 
 // A monitor that records its callbacks.
