@@ -43,22 +43,6 @@ struct Sheets : samples::TwoSheets
   {
   }
 
-  // Takes a vertex with six triangles out of its sheet and puts it into the other one.
-  void moveAcross (Index p)
-  {
-    std::vector<Index> fan, ring;
-    mesh.fan (p, fan);
-    for (Index t : fan)
-      ring.push_back (mesh.from ({t, mesh.sideOf (t, p)}));
-    mesh.replaceFan (p, fan,
-                     {{ring[0], ring[1], ring[2]},
-                      {ring[0], ring[2], ring[3]},
-                      {ring[0], ring[3], ring[4]},
-                      {ring[0], ring[4], ring[5]}});
-    mesh.split (mesh.triangle_of[(p + SHEET_POINTS) % (2 * SHEET_POINTS)], p, fan[4], fan[5]);
-    expectConsistent (mesh);
-  }
-
   // Makes random vertices change places, across sheets or not.
   void mixUp (std::size_t times, std::uint64_t seed)
   {
@@ -72,15 +56,6 @@ struct Sheets : samples::TwoSheets
       if (a != b && (positions[a] - positions[b]).norm () < 2.5)
         samples::exchange (mesh, a, b);
     }
-  }
-
-  // True if no edge joins the sheets.
-  bool areApart () const
-  {
-    return std::all_of (mesh.triangles.begin (), mesh.triangles.end (), [] (const Triangle& t) {
-      return (t[0] < SHEET_POINTS) == (t[1] < SHEET_POINTS) &&
-             (t[0] < SHEET_POINTS) == (t[2] < SHEET_POINTS);
-    });
   }
 
   std::size_t folds () const { return findFolds (mesh, positions, 1).size (); }
@@ -165,20 +140,6 @@ TEST (FlawRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
     samples::expectSame (mesh, before);
   }
   EXPECT_GT (rebuilt, 5U);
-}
-
-TEST (FlawRepair, AVertexOfTheWrongSheetGoesBack)
-{
-  Sheets sheets (2.0, 6);
-  const Index p = SHEET_POINTS + 4 * GRID_SIDE + 4;
-  sheets.moveAcross (p);
-  ASSERT_FALSE (sheets.areApart ());
-  EXPECT_TRUE (sheets.repair ().hasChanged ());
-  EXPECT_TRUE (sheets.areApart ());
-  EXPECT_EQ (sheets.folds (), 0U);
-  const Index t = sheets.mesh.triangle_of[p];
-  sheets.mesh.flip ({t, sheets.mesh.sideOf (t, p)}); // no longer recorded
-  EXPECT_EQ (sheets.mesh.mark (), 0U);
 }
 
 TEST (FlawRepair, RemovesFoldsBetweenSheetsWhoseVerticesAreMixedUp)
