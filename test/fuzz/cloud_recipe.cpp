@@ -379,8 +379,7 @@ decodeOptions (ByteSource& bytes, std::size_t points)
 Attack
 decodeAttack (ByteSource& bytes, std::size_t most)
 {
-  const std::uint64_t seed = bytes.byte ();
-  RandomStream random (seed);
+  RandomStream random (bytes.byte ());
   const std::size_t parts = 1 + bytes.below (bytes.isOneIn (2) ? 6 : 1);
   // The options come first, so that they stay the same when a fuzzer makes the cloud longer.
   Attack attack;
