@@ -10,6 +10,10 @@
 #include "points/points.h"
 #include "store.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace pcl::floater {
 struct Step;
 

@@ -8,8 +8,10 @@
 #include "messages.h"
 #include "scratch_arrays.h"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 namespace pcl::floater {
 namespace {

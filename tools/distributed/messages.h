@@ -10,11 +10,15 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <future>
 #include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace pcl::floater {
 /// What a message is about. The first three are to process 0, which answers each.

@@ -8,6 +8,13 @@
 #include "run_report.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace pcl::floater {
 /// A file of points as it was when the plan was made.

@@ -10,6 +10,8 @@
 
 #include <map>
 #include <numeric>
+#include <string>
+#include <vector>
 
 namespace pcl::floater {
 using Box = BlockCutter::Box;

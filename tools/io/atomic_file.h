@@ -7,8 +7,10 @@
 
 #include <charconv>
 #include <deque>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 

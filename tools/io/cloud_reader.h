@@ -12,6 +12,8 @@
 #include "cloud.h"
 #include "format.h"
 
+#include <filesystem>
+
 namespace pcl::floater {
 /// Cuts a polygon into triangles at its first corner.
 /// \param points of which the corners must be

@@ -7,6 +7,10 @@
 #include "format.h"
 #include "mesh_texture.h"
 
+#include <array>
+#include <optional>
+#include <utility>
+
 namespace pcl::floater {
 enum class MeshFormat
 {

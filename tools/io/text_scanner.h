@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 namespace pcl::floater {

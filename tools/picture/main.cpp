@@ -5,6 +5,11 @@
 #include "mesh_picture.h"
 #include "small_tool.h"
 
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
 using pcl::floater::ColourImage;
 
 /// A checkerboard of 32 x 32 squares, of another colour in each of 8 x 8 fields: shows stretch, and

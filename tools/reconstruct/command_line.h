@@ -7,7 +7,15 @@
 #include "mesh_writer.h"
 #include "options/option_rows.h"
 
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace pcl::floater {
 /// Exit codes, as documented in --help.

@@ -10,7 +10,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
 #include <chrono>
+#include <string>
 
 namespace pcl::floater {
 /// Figures of a run that the core does not know.
