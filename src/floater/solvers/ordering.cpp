@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/solver_parts.h"
 
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <cholmod.h>
 
 #include <array>
 #include <cstdlib>
 #include <mutex>
 #include <new>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -56,53 +57,24 @@ orderByCholmod (SystemMatrix& symmetric, Ordering ordering)
   return order;
 }
 
-// Each component level by level, and in a level those of few neighbours first (Cuthill and McKee
-// 1969); the reverse of that (George 1971).
+// Small bandwidth (Cuthill and McKee 1969; George 1971).
 Order
-reverseCuthillMckee (const SystemMatrix& graph)
+reverseCuthillMckee (const SystemMatrix& symmetric)
 {
-  std::vector<int> order;
-  std::vector<std::uint8_t> seen (static_cast<std::size_t> (graph.rows ()), 0);
-  const auto isNew = [&seen] (int v) {
-    return std::exchange (seen[static_cast<std::size_t> (v)], std::uint8_t{1}) == 0;
-  };
-  const int* const offsets = graph.outerIndexPtr ();
-  const auto addFrom = [&] (int start) {
-    std::size_t levels = 0, level_end = order.size ();
-    seen[static_cast<std::size_t> (start)] = 1;
-    order.push_back (start);
-    for (std::size_t head = level_end; head < order.size (); ++head) {
-      if (head == level_end) {
-        ++levels;
-        level_end = order.size ();
-      }
-      const auto first = static_cast<std::ptrdiff_t> (order.size ());
-      for (SystemMatrix::InnerIterator next (graph, order[head]); next; ++next)
-        if (isNew (next.index ()))
-          order.push_back (next.index ());
-      std::stable_sort (order.begin () + first, order.end (), [offsets] (int a, int b) {
-        return offsets[a + 1] - offsets[a] < offsets[b + 1] - offsets[b];
-      });
-    }
-    return levels;
-  };
-  for (int v = 0; v < graph.rows (); ++v) {
-    if (seen[static_cast<std::size_t> (v)] != 0)
-      continue;
-    // It begins at a vertex that is nearly as far as possible from another (George and Liu 1979).
-    const std::size_t begin = order.size ();
-    std::size_t levels = addFrom (v);
-    for (std::size_t before = 0; before < levels;) {
-      before = levels;
-      const int last = order.back ();
-      for (std::size_t i = begin; i < order.size (); ++i)
-        seen[static_cast<std::size_t> (order[i])] = 0;
-      order.resize (begin);
-      levels = addFrom (last);
-    }
-  }
-  std::reverse (order.begin (), order.end ());
-  return Order (Eigen::Map<Eigen::VectorXi> (order.data (), graph.rows ()));
+  using Color = boost::property<boost::vertex_color_t, boost::default_color_type>;
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, Color>;
+  Graph graph (static_cast<std::size_t> (symmetric.rows ()));
+  for (int row = 0; row < symmetric.rows (); ++row)
+    for (SystemMatrix::InnerIterator entry (symmetric, row); entry && entry.col () < row; ++entry)
+      boost::add_edge (static_cast<std::size_t> (row), static_cast<std::size_t> (entry.col ()),
+                       graph);
+  std::vector<std::size_t> order (boost::num_vertices (graph));
+  boost::cuthill_mckee_ordering (graph, order.rbegin (), boost::get (boost::vertex_color, graph),
+                                 boost::make_degree_map (graph));
+  Order unknowns (symmetric.rows ());
+  std::transform (order.begin (), order.end (), unknowns.indices ().begin (),
+                  [] (std::size_t unknown) { return static_cast<int> (unknown); });
+  return unknowns;
 }
 
 } // namespace
