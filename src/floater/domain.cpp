@@ -4,6 +4,7 @@
 
 #include "core/exact.h"
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 
 #include <Eigen/Geometry>
 
@@ -19,7 +20,8 @@ namespace {
 constexpr double SHORTEST_STEP = 4e-6;
 constexpr double SIDE_CURVATURE = 1e-3;
 
-// Places the points first to last - 1 of the loop on a curve whose end is point `last`.
+// Places the points first to last - 1 of the loop, which may go on at its beginning, on a curve whose
+// end is point `last`.
 // \param chords       chords[i] is the step from loop point i to the next one
 // \param curve_length in the plane
 // \return fractions of the curve, ascending from 0
@@ -27,7 +29,9 @@ std::vector<double>
 placeOnCurve (const std::vector<double>& chords, std::size_t first, std::size_t last,
               double curve_length)
 {
-  const double total = std::accumulate (chords.data () + first, chords.data () + last, 0.0);
+  double total = 0.0;
+  for (std::size_t i = first; i < last; ++i)
+    total += chords[i % chords.size ()];
   const std::size_t steps = last - first;
   const double shortest =
       std::min (SHORTEST_STEP / curve_length, 0.5 / static_cast<double> (steps));
@@ -35,7 +39,7 @@ placeOnCurve (const std::vector<double>& chords, std::size_t first, std::size_t 
   double sum = 0.0;
   for (std::size_t i = 0; i < steps; ++i) {
     fractions[i] = sum;
-    sum += total > 0.0 ? std::max (chords[first + i] / total, shortest) : 1.0;
+    sum += total > 0.0 ? std::max (chords[(first + i) % chords.size ()] / total, shortest) : 1.0;
   }
   for (double& fraction : fractions)
     fraction /= sum;
@@ -73,25 +77,24 @@ layOnCircle (const std::vector<double>& chords)
 }
 
 // Lays the corners at given positions, and the points between two corners on the side between them.
-// \param corner_points indices of the corners in the loop, ascending; the first one is 0
+// \param corner_points indices of the corners in the loop, ascending
 // \param places        positions of the corners in the plane, anti-clockwise
 std::vector<Eigen::Vector2d>
-layOnSides (const std::vector<double>& chords, std::vector<std::size_t> corner_points,
+layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& corner_points,
             const std::vector<Eigen::Vector2d>& places)
 {
-  const std::size_t corners = corner_points.size ();
-  corner_points.push_back (chords.size ());
-  std::vector<Eigen::Vector2d> uv;
-  uv.reserve (chords.size ());
-  for (std::size_t c = 0; c < corners; ++c) {
+  std::vector<Eigen::Vector2d> uv (chords.size ());
+  for (std::size_t c = 0; c < places.size (); ++c) {
+    const std::size_t next = c + 1 == places.size () ? 0 : c + 1;
     const Eigen::Vector2d& from = places[c];
-    const Eigen::Vector2d side = places[c + 1 == corners ? 0 : c + 1] - from;
+    const Eigen::Vector2d side = places[next] - from;
     // The side is a parabola through both corners. Its slope is far smaller than their turns.
     const Eigen::Vector2d bulge =
         0.5 * SIDE_CURVATURE * side.norm () * Eigen::Vector2d (side.y (), -side.x ());
-    for (const double t :
-         placeOnCurve (chords, corner_points[c], corner_points[c + 1], side.norm ()))
-      uv.emplace_back (from + t * side + t * (1.0 - t) * bulge);
+    std::size_t at = corner_points[c];
+    const std::size_t end = corner_points[next] + (next == 0 ? chords.size () : 0);
+    for (const double t : placeOnCurve (chords, at, end, side.norm ()))
+      uv[at++ % chords.size ()] = from + t * side + t * (1.0 - t) * bulge;
   }
   return uv;
 }
@@ -132,133 +135,58 @@ project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
   return outline;
 }
 
-// As many hull vertices as possible with the same order along loop and hull. Both are cycles, cut
-// at the hull's vertex that comes first in the loop.
-std::vector<std::size_t>
-inLoopOrder (std::vector<std::size_t> hull)
-{
-  if (hull.empty ())
-    return hull;
-  std::rotate (hull.begin (), std::min_element (hull.begin (), hull.end ()), hull.end ());
-  // Longest increasing subsequence: ends[l] is the smallest last element of those of length l + 1.
-  std::vector<std::size_t> ends, before (hull.size (), 0);
-  for (std::size_t i = 0; i < hull.size (); ++i) {
-    const auto at =
-        std::lower_bound (ends.begin (), ends.end (), hull[i],
-                          [&hull] (std::size_t end, std::size_t p) { return hull[end] < p; });
-    if (at != ends.begin ())
-      before[i] = *(at - 1);
-    if (at == ends.end ())
-      ends.push_back (i);
-    else
-      *at = i;
-  }
-  std::vector<std::size_t> ordered (ends.size ());
-  for (std::size_t length = ends.size (), i = ends.back (); length > 0; i = before[i])
-    ordered[--length] = hull[i];
-  return ordered;
-}
-
-// Least length of the first of `steps` steps on a side.
-double
-firstStep (double side, std::size_t steps)
-{
-  return steps == 1 ? side : std::min (SHORTEST_STEP, 0.5 * side / static_cast<double> (steps));
-}
-
-// Whether b can be a corner between the corners a and c, given the numbers of steps of the loop
-// between them.
+// Marks the points at which a closed polygon does not turn left.
+// \return whether there are none, and it turns once around in total
 bool
-isFit (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-       std::size_t steps_before, std::size_t steps_after)
-{
-  constexpr double SMALLEST_AREA = 1e-14; // twice the area of a turn; 50 times its rounding error
-  const Eigen::Vector2d before = b - a, after = c - b;
-  const double turn = std::atan2 (cross (before, after), before.dot (after));
-  // At each end of a side, the bulge reduces the turn by half of its curvature times the side's
-  // length.
-  const double taken = 0.5 * SIDE_CURVATURE * (before.norm () + after.norm ());
-  const double area = (turn - taken) * firstStep (before.norm (), steps_before) *
-                      firstStep (after.norm (), steps_after);
-  // Too many steps on a side with so little bulge would not turn left after rounding.
-  const auto crowded = [] (double side, std::size_t steps) {
-    const double step = firstStep (side, steps);
-    return steps > 1 && 0.5 * SIDE_CURVATURE * step * step < 0.5 * SMALLEST_AREA;
-  };
-  return turn > 2.0 * taken && area > SMALLEST_AREA && !crowded (before.norm (), steps_before) &&
-         !crowded (after.norm (), steps_after);
-}
-
-// The corners of the loop's own shape, as indices in the loop, ascending: the vertices of the convex
-// hull of its outline except for those in another order along the loop than along the hull (where
-// the projection crosses itself), those at which the hull turns too little for bulging sides, and
-// those too near to the next one for the points between them. None if fewer than three are left.
-// O(n log n).
-std::vector<std::size_t>
-cornersOfOwnShape (const Outline& outline)
-{
-  constexpr std::size_t FEWEST = 3;
-  std::vector<std::size_t> corners = inLoopOrder (convexHull (outline));
-  const auto steps = [&outline] (std::size_t from, std::size_t to) {
-    return to > from ? to - from : to + outline.size () - from;
-  };
-  // Repeatedly drops corners that do not fit between the remaining ones.
-  for (bool changed = true; changed && corners.size () >= FEWEST;) {
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < corners.size (); ++i) {
-      const std::size_t before = kept.empty () ? corners.back () : kept.back ();
-      const bool last = i + 1 == corners.size ();
-      const std::size_t after = !last ? corners[i + 1] : kept.empty () ? corners[i] : kept.front ();
-      if (before != after && isFit (outline[before], outline[corners[i]], outline[after],
-                                    steps (before, corners[i]), steps (corners[i], after)))
-        kept.push_back (corners[i]);
-    }
-    changed = kept.size () < corners.size ();
-    corners = std::move (kept);
-  }
-  if (corners.size () < FEWEST)
-    corners.clear ();
-  return corners;
-}
-
-// Whether a closed polygon turns left at every point and once around in total, in double precision.
-bool
-isStrictlyConvex (const std::vector<Eigen::Vector2d>& polygon)
+isStrictlyConvex (const Outline& polygon, std::vector<std::uint8_t>& is_wrong)
 {
   const std::size_t count = polygon.size ();
   double turn = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     // Differences of nearly equal numbers are exact, so the sign of the cross product is right.
-    const Eigen::Vector2d before = polygon[(i + 1) % count] - polygon[i];
-    const Eigen::Vector2d after = polygon[(i + 2) % count] - polygon[(i + 1) % count];
+    const Eigen::Vector2d before = polygon[i] - polygon[(i + count - 1) % count];
+    const Eigen::Vector2d after = polygon[(i + 1) % count] - polygon[i];
     const double sine = cross (before, after);
-    if (!(sine > 0.0))
-      return false;
+    is_wrong[i] = sine > 0.0 ? 0 : 1;
     turn += std::atan2 (sine, before.dot (after));
   }
-  return count >= 3 && std::abs (turn - 2.0 * PI) < 1.0;
+  return std::count (is_wrong.begin (), is_wrong.end (), 1) == 0 &&
+         std::abs (turn - 2.0 * PI) < 1.0;
 }
 
-// \return empty if the loop has no own shape, or one that is not convex after rounding
-std::vector<Eigen::Vector2d>
-layOnOwnShape (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
-               std::vector<double> chords)
+// Lays the loop on the convex hull of its outline. In rounds, corners are dropped where that does not
+// turn left at the corner or on the side after it: those in another order along the loop than along
+// the hull (where the projection crosses itself), those at which the hull turns too little for
+// bulging sides, and those too near to the next one for the points between them.
+// \return empty if fewer than three corners are left, or the loop winds around itself
+Outline
+layOnOwnShape (const Outline& outline, const std::vector<double>& chords)
 {
-  const Outline outline = project (positions, loop);
-  std::vector<std::size_t> corners = cornersOfOwnShape (outline);
-  if (corners.empty ())
-    return {};
-  Outline places;
-  for (const std::size_t corner : corners)
-    places.push_back (outline[corner]);
-  // The first corner must be the first point of the loop: rotate the loop, and the result back.
-  const auto turn = static_cast<std::ptrdiff_t> (corners.front ());
-  for (std::size_t& corner : corners)
-    corner -= static_cast<std::size_t> (turn);
-  std::rotate (chords.begin (), chords.begin () + turn, chords.end ());
-  Outline uv = layOnSides (chords, corners, places);
-  std::rotate (uv.begin (), uv.end () - turn, uv.end ());
-  return isStrictlyConvex (uv) ? uv : Outline{};
+  std::vector<std::size_t> corners = convexHull (outline);
+  std::sort (corners.begin (), corners.end ());
+  std::vector<std::uint8_t> is_wrong (outline.size ());
+  while (corners.size () >= 3) {
+    Outline uv = layOnSides (chords, corners, valuesAt (outline, corners));
+    if (isStrictlyConvex (uv, is_wrong))
+      return uv;
+    // Of two corners beside each other one is kept: it turns more without the other one.
+    std::vector<std::size_t> kept;
+    bool was_dropped = false;
+    for (std::size_t c = 0; c < corners.size (); ++c) {
+      const std::size_t end =
+          c + 1 < corners.size () ? corners[c + 1] : corners.front () + outline.size ();
+      std::size_t wrong = 0;
+      for (std::size_t i = corners[c]; i < end; ++i)
+        wrong += is_wrong[i % outline.size ()];
+      was_dropped = wrong > 0 && !was_dropped;
+      if (!was_dropped)
+        kept.push_back (corners[c]);
+    }
+    if (kept.size () == corners.size ())
+      break;
+    corners = std::move (kept);
+  }
+  return {};
 }
 
 double
@@ -282,7 +210,7 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
         stepLength ((positions[loop[i + 1 == count ? 0 : i + 1]] - positions[loop[i]]).norm (),
                     options.loop_spacing);
   if (options.curve == Domain::OWN_SHAPE) {
-    std::vector<Eigen::Vector2d> uv = layOnOwnShape (positions, loop, chords);
+    Outline uv = layOnOwnShape (project (positions, loop), chords);
     if (!uv.empty ())
       return uv;
   }
