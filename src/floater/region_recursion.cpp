@@ -3,6 +3,7 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "floater/floater_method.h"
+#include "floater/mesh_piece.h"
 #include "floater/planar_delaunay.h"
 
 #include <algorithm>
@@ -89,30 +90,6 @@ takeConnected (const TriangleMesh& mesh, std::vector<Index> triangles,
   return triangles;
 }
 
-// The boundary loop of a region, from its smallest point on. Region and rest are both connected by
-// edges, so the edges between them are one simple cycle.
-// \param triangles of the region, ascending
-// \return empty if there is no such cycle, since the mesh is no disc
-std::vector<Index>
-loopAround (const TriangleMesh& mesh, const std::vector<Index>& triangles)
-{
-  std::map<Index, Index> next;
-  std::size_t edges = 0;
-  for (const Index t : triangles)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (!std::binary_search (triangles.begin (), triangles.end (), mesh.neighbors[t][side])) {
-        next[mesh.from ({t, side})] = mesh.to ({t, side});
-        ++edges;
-      }
-  std::vector<Index> loop;
-  for (auto at = next.begin (); at != next.end (); at = next.find (at->second)) {
-    loop.push_back (at->first);
-    if (at->second == loop.front () || loop.size () == edges)
-      break;
-  }
-  return loop.size () == edges ? loop : std::vector<Index> ();
-}
-
 // The regions whose scale, relative to that of the loop, is below DiscLimits::collapsed_scale. One
 // pass over the triangles without such regions, otherwise O(n log n).
 std::vector<CollapsedRegion>
@@ -146,13 +123,11 @@ findCollapsedRegions (const PlaneDisc& disc, const RunContext& run, const DiscLi
     CollapsedRegion region;
     region.triangles = takeConnected (mesh, {start}, taken, run, [] (MeshEdge) { return true; });
     std::sort (region.triangles.begin (), region.triangles.end ());
-    region.loop = loopAround (mesh, region.triangles);
-    if (region.loop.empty ())
+    MeshPiece piece = cutOut (mesh.triangles, region.triangles, disc.positions);
+    if (piece.loop.empty ())
       continue;
-    for (const Index t : region.triangles)
-      region.points.insert (region.points.end (), mesh.triangles[t].begin (),
-                            mesh.triangles[t].end ());
-    sortUnique (region.points);
+    region.points = std::move (piece.points);
+    region.loop = valuesAt (region.points, piece.loop);
     for (std::size_t i = 0, vertices = region.points.size (); i < vertices; ++i) {
       const Eigen::Vector2d& uv = disc.uv[region.points[i]];
       if (const auto found = lost.find ({uv.x (), uv.y ()}); found != lost.end ()) {
@@ -167,73 +142,6 @@ findCollapsedRegions (const PlaneDisc& disc, const RunContext& run, const DiscLi
   return regions;
 }
 
-// Whether the boundary of the mesh is the loop.
-bool
-fillsLoop (const TriangleMesh& mesh, const std::vector<Index>& loop, const RunContext& run)
-{
-  std::vector<std::vector<Index>> loops = boundaryLoops (mesh, run);
-  if (loops.size () != 1)
-    return false;
-  std::vector<Index>& found = loops.front ();
-  std::rotate (found.begin (), std::find (found.begin (), found.end (), loop.front ()),
-               found.end ());
-  return found == loop;
-}
-
-// What all regions are laid out with.
-struct Surroundings
-{
-  const std::vector<Eigen::Vector3d>& positions;
-  const CsrLists& nearest;
-  const std::vector<Eigen::Vector3f>& normals;
-  const StarSettings& stars;
-  DiscOptions options; // on a circle
-  RunContext run;
-  const DiscLimits& limits;
-  std::vector<Index> number; // of each point in the current disc; NONE: not in it
-};
-
-// Lays a region out on a circle of its own, with the neighbours among its points.
-// \return without triangles if there is no solution that fills its loop
-PlaneDisc
-layOut (const CollapsedRegion& region, const PlaneDisc& around, Surroundings& with)
-{
-  PlaneDisc disc;
-  disc.level = around.level + 1;
-  std::vector<Eigen::Vector3f> normals;
-  for (const Index p : region.points) {
-    const Index in_cloud = around.points[p];
-    with.number[in_cloud] = static_cast<Index> (disc.points.size ());
-    disc.points.push_back (in_cloud);
-    normals.push_back (with.normals[in_cloud]);
-  }
-  disc.positions = valuesAt (with.positions, disc.points);
-  for (const Index p : region.loop)
-    disc.loop.push_back (with.number[around.points[p]]);
-  CsrLists nearest;
-  nearest.offsets.push_back (0);
-  for (const Index p : disc.points) {
-    for (const Index q : with.nearest.row (p))
-      if (with.number[q] != NONE)
-        nearest.ids.push_back (with.number[q]);
-    nearest.offsets.push_back (static_cast<Index> (nearest.ids.size ()));
-  }
-  for (const Index p : disc.points)
-    with.number[p] = NONE;
-  Parameterization parameterization =
-      parameterize (disc.positions, nearest,
-                    makeStars (disc.positions, nearest, normals, Rows::all (disc.positions.size ()),
-                               with.stars, with.run),
-                    disc.loop, with.options, with.run, with.limits);
-  if (parameterization.problem)
-    return disc;
-  disc.uv = std::move (parameterization.uv);
-  disc.mesh = triangulatePlane (disc.uv, disc.loop);
-  if (!fillsLoop (disc.mesh, disc.loop, with.run))
-    disc.mesh.triangles.clear ();
-  return disc;
-}
-
 } // namespace
 
 std::size_t
@@ -246,9 +154,45 @@ layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& 
   if (markDeepPoints (mesh, uv, positions, loop, run, limits).empty ())
     return 0;
   const RunContext within = run.withinStage ();
-  Surroundings with{positions, nearest, normals, star_settings, options, within, limits, {}};
-  with.options.domain.curve = Domain::CIRCLE;
-  with.number.assign (positions.size (), NONE);
+  DiscOptions on_circle = options;
+  on_circle.domain.curve = Domain::CIRCLE;
+  // Lays a region out on a circle of its own, with the neighbours among its points. Without triangles
+  // if there is no solution that fills its loop.
+  const auto layOut = [&] (const CollapsedRegion& region, const PlaneDisc& around) {
+    PlaneDisc disc;
+    disc.level = around.level + 1;
+    disc.points = valuesAt (around.points, region.points);
+    disc.positions = valuesAt (positions, disc.points);
+    const auto numberOf = [&disc] (Index in_cloud) {
+      const auto at = std::lower_bound (disc.points.begin (), disc.points.end (), in_cloud);
+      return at == disc.points.end () || *at != in_cloud
+                 ? NONE
+                 : static_cast<Index> (at - disc.points.begin ());
+    };
+    for (const Index p : region.loop)
+      disc.loop.push_back (numberOf (around.points[p]));
+    CsrLists among;
+    among.offsets.push_back (0);
+    for (const Index p : disc.points) {
+      for (const Index q : nearest.row (p))
+        if (const Index number = numberOf (q); number != NONE)
+          among.ids.push_back (number);
+      among.offsets.push_back (static_cast<Index> (among.ids.size ()));
+    }
+    Parameterization parameterization =
+        parameterize (disc.positions, among,
+                      makeStars (disc.positions, among, valuesAt (normals, disc.points),
+                                 Rows::all (disc.positions.size ()), star_settings, within),
+                      disc.loop, on_circle, within, limits);
+    if (parameterization.problem)
+      return disc;
+    disc.uv = std::move (parameterization.uv);
+    disc.mesh = triangulatePlane (disc.uv, disc.loop);
+    // Both loops begin at their smallest point.
+    if (boundaryLoops (disc.mesh, within) != std::vector<std::vector<Index>>{disc.loop})
+      disc.mesh.triangles.clear ();
+    return disc;
+  };
   std::vector<PlaneDisc> waiting (1);
   waiting[0] = {std::vector<Index> (positions.size ()), loop, positions, uv, mesh};
   std::iota (waiting[0].points.begin (), waiting[0].points.end (), Index{0});
@@ -259,7 +203,7 @@ layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& 
     waiting.pop_back ();
     levels = std::max (levels, disc.level);
     for (const CollapsedRegion& region : findCollapsedRegions (disc, within, limits)) {
-      PlaneDisc part = layOut (region, disc, with);
+      PlaneDisc part = layOut (region, disc);
       if (part.mesh.triangles.empty ())
         continue; // it stays in the mesh
       waiting.push_back (std::move (part));

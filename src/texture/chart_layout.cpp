@@ -6,6 +6,7 @@
 #include "core/order_statistics.h"
 #include "floater/domain.h"
 #include "floater/solvers/solver.h"
+#include "floater/weights.h"
 #include "texture/stretch.h"
 
 #include <Eigen/LU>
@@ -20,18 +21,6 @@ namespace pcl::floater {
 namespace {
 constexpr int MOST_STEPS = 10;          // of the relaxation; later ones hardly lower the stretch
 constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
-constexpr double SMALLEST_TANGENT = 1e-6, LARGEST_TANGENT = 1e6; // of half an angle
-
-// tan (angle / 2) at corner i of a triangle.
-double
-halfTangent (const std::array<Eigen::Vector3d, 3>& place, std::size_t i)
-{
-  const Eigen::Vector3d a = place[(i + 1) % 3] - place[i], b = place[(i + 2) % 3] - place[i];
-  const double sine = a.cross (b).norm (), cosine = a.dot (b), lengths = a.norm () * b.norm ();
-  const double tangent = cosine >= 0.0 ? sine / (lengths + cosine) : (lengths - cosine) / sine;
-  // NaN: two equal corners
-  return tangent > SMALLEST_TANGENT ? std::min (tangent, LARGEST_TANGENT) : SMALLEST_TANGENT;
-}
 
 // Neighbours of the inner vertices and their mean value weights.
 struct Weights
@@ -41,8 +30,9 @@ struct Weights
 };
 
 Weights
-meanValueWeights (const ChartMesh& chart)
+meanValueWeights (const MeshPiece& chart)
 {
+  constexpr double SMALLEST_TANGENT = 1e-6; // of half an angle
   const TriangleMesh& mesh = chart.mesh;
   std::vector<std::uint8_t> is_inner (chart.positions.size (), 1);
   for (const Index p : chart.loop)
@@ -56,9 +46,13 @@ meanValueWeights (const ChartMesh& chart)
           emit (mesh.from ({t, side}), 3 * t + side);
   });
   const auto tangentAt = [&] (Index t, std::uint8_t corner) {
-    const Triangle& c = mesh.triangles[t];
-    return halfTangent ({chart.positions[c[0]], chart.positions[c[1]], chart.positions[c[2]]},
-                        corner);
+    const auto toCorner = [&] (std::uint8_t other) -> Eigen::Vector3d {
+      const Triangle& c = mesh.triangles[t];
+      return (chart.positions[c[other]] - chart.positions[c[corner]]).normalized ();
+    };
+    const Eigen::Vector3d a = toCorner (TriangleMesh::next (corner));
+    const Eigen::Vector3d b = toCorner (TriangleMesh::previous (corner));
+    return std::max (halfTangent (a.cross (b).norm (), a.dot (b)), SMALLEST_TANGENT);
   };
   weights.values.reserve (weights.neighbors.ids.size ());
   for (Index& id : weights.neighbors.ids) {
@@ -73,52 +67,30 @@ meanValueWeights (const ChartMesh& chart)
   return weights;
 }
 
-// Stretch around each vertex, and in total.
-struct LocalStretch
+// Infinite if there is no layout, or a triangle is flipped.
+double
+meanStretch (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
 {
-  std::vector<double> of_vertex;
-  double mean =
-      std::numeric_limits<double>::infinity (); // also if there is no layout, or a triangle
-                                                // is flipped
-};
+  const std::vector<Triangle>& triangles = chart.mesh.triangles;
+  return uv.empty () ? std::numeric_limits<double>::infinity ()
+                     : stretchOf (triangles, chart.positions, triangles, uv).mean ();
+}
 
-LocalStretch
-measureLocally (const ChartMesh& chart, const RestShapes& rest,
-                const std::vector<Eigen::Vector2d>& uv)
+// Divides weights by the stretch around the neighbour.
+void
+evenOut (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv, Weights& weights)
 {
-  LocalStretch result;
-  if (uv.empty ())
-    return result;
-  std::vector<double> squares (uv.size (), 0.0), areas (uv.size (), 0.0);
-  double sum = 0.0, plane_area = 0.0;
-  for (std::size_t t = 0; t < chart.mesh.triangles.size (); ++t) {
-    const Triangle& c = chart.mesh.triangles[t];
-    Eigen::Matrix2d edges;
-    edges << uv[c[1]] - uv[c[0]], uv[c[2]] - uv[c[0]];
-    const double determinant = edges.determinant ();
-    if (!(determinant > 0.0))
-      return result;
-    const RestShape& shape = rest.shapes[t];
-    // For the inverse of the map from the shape: as many squares, over the determinant.
-    const double inverse_determinant = 1.0 / (determinant * shape.to_unit.determinant ());
-    const double square = 0.5 * shape.area * (edges * shape.to_unit).squaredNorm () *
-                          inverse_determinant * inverse_determinant;
-    sum += square;
-    plane_area += 0.5 * determinant;
-    for (const Index p : c) {
-      squares[p] += square;
-      areas[p] += shape.area;
-    }
-  }
-  result.mean = std::sqrt (sum * plane_area);
-  result.of_vertex.resize (uv.size ());
-  for (std::size_t p = 0; p < uv.size (); ++p)
-    result.of_vertex[p] = std::sqrt (squares[p] / areas[p]);
-  return result;
+  std::vector<StretchSums> around (uv.size ());
+  for (const Triangle& t : chart.mesh.triangles)
+    for (const Index p : t)
+      around[p].add ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
+                     {uv[t[0]], uv[t[1]], uv[t[2]]});
+  for (std::size_t i = 0; i < weights.values.size (); ++i)
+    weights.values[i] /= around[weights.neighbors.ids[i]].absolute ();
 }
 
 std::vector<Eigen::Vector2d>
-solveWeights (const ChartMesh& chart, const Weights& weights,
+solveWeights (const MeshPiece& chart, const Weights& weights,
               const std::vector<Eigen::Vector2d>& loop_uv, const RunContext& run)
 {
   const std::vector<std::uint8_t> all (chart.positions.size (), 1);
@@ -140,39 +112,38 @@ solveWeights (const ChartMesh& chart, const Weights& weights,
 } // namespace
 
 std::vector<Eigen::Vector2d>
-layOutOnCircle (const ChartMesh& chart, const RestShapes& rest, const RunContext& run)
+layOutOnCircle (const MeshPiece& chart, const RunContext& run)
 {
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
   Weights weights = meanValueWeights (chart);
   std::vector<Eigen::Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
-  LocalStretch stretch = measureLocally (chart, rest, uv);
-  if (std::isinf (stretch.mean)) {
+  double stretch = meanStretch (chart, uv);
+  if (std::isinf (stretch)) {
     // Weights of long triangles are so different that rounding merges their ends.
     std::fill (weights.values.begin (), weights.values.end (), 1.0);
     uv = solveWeights (chart, weights, loop_uv, run);
-    stretch = measureLocally (chart, rest, uv);
-    if (std::isinf (stretch.mean))
+    stretch = meanStretch (chart, uv);
+    if (std::isinf (stretch))
       return {};
   }
   if (chart.loop.size () == chart.positions.size ())
     return uv; // no inner vertex
   bool goes_on = true;
   for (int step = 0; step < MOST_STEPS && goes_on; ++step) {
-    for (std::size_t i = 0; i < weights.values.size (); ++i)
-      weights.values[i] /= stretch.of_vertex[weights.neighbors.ids[i]];
+    evenOut (chart, uv, weights);
     std::vector<Eigen::Vector2d> next = solveWeights (chart, weights, loop_uv, run);
-    LocalStretch next_stretch = measureLocally (chart, rest, next);
-    if (!(next_stretch.mean < stretch.mean))
+    const double next_stretch = meanStretch (chart, next);
+    if (!(next_stretch < stretch))
       break;
-    goes_on = next_stretch.mean < LEAST_PROGRESS * stretch.mean;
+    goes_on = next_stretch < LEAST_PROGRESS * stretch;
     uv = std::move (next);
-    stretch = std::move (next_stretch);
+    stretch = next_stretch;
   }
   return uv;
 }
 
 bool
-untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv)
 {
   constexpr int ROUNDS_AT_MOST = 60; // remaining defects are wider than 30 triangles and no details
   // Moved are vertices of flipped triangles and some rings around them: one, plus one after this many
@@ -231,14 +202,14 @@ untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vect
 
 namespace {
 bool
-isLayout (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)
+isLayout (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
 {
   return isUpright (chart.mesh.triangles, uv) && isSimple (chart.loop, uv);
 }
 
 // Projects the chart, seen from its mean normal.
 std::vector<Eigen::Vector2d>
-project (const ChartMesh& chart)
+project (const MeshPiece& chart)
 {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero (), middle = Eigen::Vector3d::Zero ();
   for (const Triangle& t : chart.mesh.triangles)
@@ -253,31 +224,23 @@ project (const ChartMesh& chart)
   return uv;
 }
 
-double
-meanStretch (const ChartMesh& chart, const std::vector<Eigen::Vector2d>& uv)
-{
-  const std::vector<Triangle>& triangles = chart.mesh.triangles;
-  return stretchOf (triangles, chart.positions, triangles, uv).mean ();
-}
-
 // The first valid layout of: the projection; the projection with small defects repaired; a
 // convex-combination map on the circle. Otherwise empty.
 std::vector<Eigen::Vector2d>
-beginLayout (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
-             const RunContext& run)
+beginLayout (const MeshPiece& chart, const DescentLimits& limits, const RunContext& run)
 {
   std::vector<Eigen::Vector2d> uv = project (chart);
   if (isLayout (chart, uv) || (untangle (chart, run, uv) && isLayout (chart, uv)))
     return uv;
   if (chart.mesh.triangles.size () > limits.most_on_circle)
     return {};
-  uv = layOutOnCircle (chart, rest, run);
+  uv = layOutOnCircle (chart, run);
   return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
 }
 
 // Lowers the distortion of a layout, unless that raises its stretch; sets its figures.
 void
-relax (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
+relax (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
        const RunContext& run, ChartLayout& layout)
 {
   layout.area = rest.area;
@@ -294,7 +257,7 @@ relax (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limi
 
 // Lays one triangle out by the lengths of its edges.
 void
-layOutTriangle (const ChartMesh& chart, ChartLayout& layout)
+layOutTriangle (const MeshPiece& chart, ChartLayout& layout)
 {
   constexpr double LEAST_HEIGHT_ALONE = 1.0 / 16.0;
   const Triangle& c = chart.mesh.triangles.front ();
@@ -317,14 +280,14 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
 {
   run.poll ();
   ChartLayout layout;
-  ChartMesh chart = makeChartMesh (triangles, chart_triangles, positions);
+  MeshPiece chart = cutOut (triangles, chart_triangles, positions);
   layout.triangles = std::move (chart_triangles);
   if (layout.triangles.size () == 1)
     layOutTriangle (chart, layout);
   else if (!chart.loop.empty ()) {
     const RestShapes rest = makeRestShapes (chart);
     layout.area = rest.area;
-    layout.uv = beginLayout (chart, rest, limits, run);
+    layout.uv = beginLayout (chart, limits, run);
     if (!layout.uv.empty ())
       relax (chart, rest, limits, run, layout);
   }
@@ -338,7 +301,7 @@ void
 refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
               const DescentLimits& limits, const RunContext& run, ChartLayout& layout)
 {
-  const ChartMesh chart = makeChartMesh (triangles, layout.triangles, positions);
+  const MeshPiece chart = cutOut (triangles, layout.triangles, positions);
   relax (chart, makeRestShapes (chart), limits, run, layout);
 }
 

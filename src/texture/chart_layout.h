@@ -32,14 +32,14 @@ struct ChartLayout
 /// \param chart a disc
 /// \return per vertex; empty if rounding or the solver failed
 std::vector<Eigen::Vector2d>
-layOutOnCircle (const ChartMesh& chart, const RestShapes& rest, const RunContext& run);
+layOutOnCircle (const MeshPiece& chart, const RunContext& run);
 
 /// Moves the vertices of flipped triangles, and those around them, to the mean of their neighbours
 /// (at the boundary, of those along it). All others stay. O(triangles) for each round.
 /// \param[in,out] uv per vertex; valid only after success
 /// \return whether, in double precision, nothing is flipped
 bool
-untangle (const ChartMesh& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv);
+untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv);
 
 /// Lays a chart out without flipped triangles, and with a simple boundary: no point of the plane is
 /// covered twice. Starts with the projection along the mean normal, untangled if it has small

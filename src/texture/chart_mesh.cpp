@@ -3,7 +3,6 @@
 #include "texture/chart_mesh.h"
 
 #include "core/geometry.h"
-#include "core/order_statistics.h"
 
 #include <Eigen/LU>
 
@@ -24,35 +23,6 @@ MeshRings::MeshRings (const TriangleMesh& mesh)
     after[mesh.from (edge)] = mesh.to (edge);
     before[mesh.to (edge)] = mesh.from (edge);
   }
-}
-
-ChartMesh
-makeChartMesh (const std::vector<Triangle>& triangles, const std::vector<Index>& chart,
-               const std::vector<Eigen::Vector3d>& positions)
-{
-  ChartMesh result;
-  result.points.reserve (3 * chart.size ());
-  for (const Index t : chart)
-    result.points.insert (result.points.end (), triangles[t].begin (), triangles[t].end ());
-  sortUnique (result.points);
-  result.points.shrink_to_fit ();
-  result.positions = valuesAt (positions, result.points);
-  result.mesh.triangles.reserve (chart.size ());
-  for (const Index t : chart) {
-    Triangle corners;
-    for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = static_cast<Index> (
-          std::lower_bound (result.points.begin (), result.points.end (), triangles[t][i]) -
-          result.points.begin ());
-    result.mesh.triangles.push_back (corners);
-  }
-  if (!result.mesh.connect (result.points.size (), 1))
-    return result;
-  // By Euler's formula.
-  std::vector<std::vector<Index>> loops = boundaryLoops (result.mesh, 1);
-  if (loops.size () == 1 && 2 * result.points.size () == chart.size () + loops.front ().size () + 2)
-    result.loop = std::move (loops.front ());
-  return result;
 }
 
 FlatTriangle
@@ -78,7 +48,7 @@ layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_height)
 }
 
 RestShapes
-makeRestShapes (const ChartMesh& chart)
+makeRestShapes (const MeshPiece& chart)
 {
   RestShapes result;
   std::vector<FlatTriangle> all;

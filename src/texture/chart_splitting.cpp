@@ -25,26 +25,25 @@ listsOf (const MeshComponents& parts)
   return lists;
 }
 
-class ChartCutter
+// Lays out charts of the mesh for some positions.
+struct ChartCutter
 {
-public:
-  ChartCutter (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               double largest_stretch, const TextureLimits& limits, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), largest_stretch_ (largest_stretch), limits_ (limits),
-        run_ (run)
-  {
-  }
+  const TriangleMesh& mesh;
+  const std::vector<Eigen::Vector3d>& positions;
+  double largest_stretch;
+  const TextureLimits& limits;
+  RunContext run;
 
   ChartLayout layOut (std::vector<Index> chart) const
   {
-    return layOutChart (mesh_.triangles, std::move (chart), positions_, limits_.descent, run_);
+    return layOutChart (mesh.triangles, std::move (chart), positions, limits.descent, run);
   }
 
   // Cuts a chart with too much stretch, or without layout. Each piece has fewer triangles, and one
   // has a layout.
   void layOutParts (ChartLayout chart, Layouts& result) const
   {
-    if (chart.triangles.size () == 1 || (!chart.uv.empty () && chart.stretch <= largest_stretch_)) {
+    if (chart.triangles.size () == 1 || (!chart.uv.empty () && chart.stretch <= largest_stretch)) {
       result.push_back (std::move (chart));
       return;
     }
@@ -54,30 +53,22 @@ public:
       layOutParts (layOut (part), result);
   }
 
-private:
   // Cuts a chart of several triangles in two, or in more where their union would be no disc.
   std::vector<std::vector<Index>> cut (const std::vector<Index>& chart) const
   {
-    const ChartMesh part = makeChartMesh (mesh_.triangles, chart, positions_);
-    ChartLimits limits = limits_.charts;
-    limits.facets =
-        std::min (limits.facets,
-                  std::max (limits_.facets_of_cut, chart.size () / limits_.triangles_per_facet));
-    limits.most_triangles = std::max<std::size_t> (
-        1, static_cast<std::size_t> (limits_.half * static_cast<double> (chart.size ())));
+    const MeshPiece part = cutOut (mesh.triangles, chart, positions);
+    ChartLimits halves = limits.charts;
+    halves.facets = std::min (
+        halves.facets, std::max (limits.facets_of_cut, chart.size () / limits.triangles_per_facet));
+    halves.most_triangles = std::max<std::size_t> (
+        1, static_cast<std::size_t> (limits.half * static_cast<double> (chart.size ())));
     std::vector<std::vector<Index>> lists =
-        listsOf (findCharts (part.mesh, part.positions, true, limits, run_));
+        listsOf (findCharts (part.mesh, part.positions, true, halves, run));
     for (std::vector<Index>& list : lists)
       for (Index& t : list)
         t = chart[t];
     return lists;
   }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  double largest_stretch_;
-  const TextureLimits& limits_;
-  RunContext run_;
 };
 
 } // namespace
@@ -132,8 +123,8 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     constexpr double ANY_STRETCH = std::numeric_limits<double>::infinity ();
     TextureLimits whole = limits;
     whole.descent.most_on_circle = std::numeric_limits<std::size_t>::max ();
-    const ChartCutter by_smooth (mesh, smooth, ANY_STRETCH, whole, within);
-    const ChartCutter by_true (mesh, positions, ANY_STRETCH, whole, within);
+    const ChartCutter by_smooth{mesh, smooth, ANY_STRETCH, whole, within};
+    const ChartCutter by_true{mesh, positions, ANY_STRETCH, whole, within};
     layOutEach (listsOf (findComponents (mesh, run)), [&] (const std::vector<Index>& triangles) {
       ChartLayout disc = by_smooth.layOut (triangles);
       if (disc.loop.empty ())
@@ -149,9 +140,9 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
   const std::vector<std::vector<Index>> lists =
       listsOf (findCharts (mesh, smooth, false, limits.charts, run));
   run.beginStep (0.95);
-  const ChartCutter by_smooth (mesh, smooth, largest_stretch, limits, within);
-  const ChartCutter by_true (mesh, positions, std::max (largest_stretch, limits.too_much), limits,
-                             within);
+  const ChartCutter by_smooth{mesh, smooth, largest_stretch, limits, within};
+  const ChartCutter by_true{mesh, positions, std::max (largest_stretch, limits.too_much), limits,
+                            within};
   layOutEach (lists, [&] (const std::vector<Index>& triangles) {
     return is_done[triangles.front ()] != 0
                ? Layouts{}

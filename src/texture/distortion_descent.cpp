@@ -44,7 +44,7 @@ edgesOf (const Plane& x, const Triangle& c)
 class Descent
 {
 public:
-  Descent (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits)
+  Descent (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits)
       : chart_ (chart), rest_ (rest), limits_ (limits)
   {
   }
@@ -185,11 +185,10 @@ private:
       const std::array<double, 4> values{curvatureOf (p), curvatureOf (q),
                                          std::max (0.0, (slopeOf (p) + slopeOf (q)) / (p + q)),
                                          2.0 + 2.0 * (p * p + p * q + q * q) / cube};
-      std::array<Eigen::Matrix2d, 4> modes;
-      modes[0] << 1.0, 0.0, 0.0, 0.0;
-      modes[1] << 0.0, 0.0, 0.0, 1.0;
-      modes[2] << 0.0, -half, half, 0.0;
-      modes[3] << 0.0, half, half, 0.0;
+      using Mode = Eigen::Matrix2d;
+      const std::array<Mode, 4> modes{Mode{{1.0, 0.0}, {0.0, 0.0}}, Mode{{0.0, 0.0}, {0.0, 1.0}},
+                                      Mode{{0.0, -half}, {half, 0.0}},
+                                      Mode{{0.0, half}, {half, 0.0}}};
       Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero ();
       const Eigen::Matrix<double, 3, 2> slopes = slopesOf (shape);
       for (std::size_t m = 0; m < 4; ++m) {
@@ -309,7 +308,7 @@ private:
     return least;
   }
 
-  const ChartMesh& chart_;
+  const MeshPiece& chart_;
   const RestShapes& rest_;
   const DescentLimits& limits_;
   Cholesky solver_;
@@ -325,7 +324,7 @@ areFinite (const std::vector<Eigen::Vector2d>& uv)
 } // namespace
 
 void
-descendDistortion (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
+descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
                    const RunContext& run, std::vector<Eigen::Vector2d>& uv)
 {
   Descent (chart, rest, limits).run (run, uv);

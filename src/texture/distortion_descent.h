@@ -38,7 +38,7 @@ struct DescentLimits
 /// itself.
 /// \param[in,out] uv per vertex; no triangle flipped, the boundary simple. Scaled first
 void
-descendDistortion (const ChartMesh& chart, const RestShapes& rest, const DescentLimits& limits,
+descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
                    const RunContext& run, std::vector<Eigen::Vector2d>& uv);
 
 /// Whether a closed polygon is simple. Exact; O(n log n).

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace pcl::floater {
@@ -24,6 +25,9 @@ public:
   /// root of the ratio of the areas. 1 if all lengths have the same ratio, or without triangles;
   /// otherwise more; infinite if a triangle with an area in space has none in the plane.
   double mean () const;
+
+  /// L2 stretch without the root of the ratio; 1 without triangles.
+  double absolute () const { return area_ > 0.0 ? std::sqrt (squares_ / area_) : 1.0; }
 
   /// L-infinity stretch: largest singular value of any triangle, times the same root.
   double largest () const;

@@ -17,10 +17,10 @@ using samples::connected;
 using samples::Mesh;
 using Plane = std::vector<Eigen::Vector2d>;
 
-ChartMesh
+MeshPiece
 chartOf (const Mesh& mesh)
 {
-  return makeChartMesh (mesh.triangles, samples::indices (mesh.triangles.size ()), mesh.positions);
+  return cutOut (mesh.triangles, samples::indices (mesh.triangles.size ()), mesh.positions);
 }
 
 ChartLayout
@@ -49,7 +49,7 @@ stretchOfOne (const std::array<Eigen::Vector3d, 3>& place, const std::array<Eige
 }
 
 double
-meanStretch (const ChartMesh& chart, const Plane& uv)
+meanStretch (const MeshPiece& chart, const Plane& uv)
 {
   const std::vector<Triangle>& triangles = chart.mesh.triangles;
   return stretchOf (triangles, chart.positions, triangles, uv).mean ();
@@ -72,7 +72,7 @@ TEST (Stretch, OfKnownMaps)
   EXPECT_EQ (sums.mean (), 1.0);
 }
 
-TEST (ChartMesh, LoopOfADiscOnly)
+TEST (MeshPiece, LoopOfADiscOnly)
 {
   const Mesh sheet = samples::sheet (4);
   const std::vector<Index> loop = chartOf (sheet).loop;
@@ -93,9 +93,9 @@ TEST (DistortionDescent, DevelopsWhatCanBeDeveloped)
     const double angle = PI * p.x () / 1.2;
     p = Eigen::Vector3d (-std::cos (angle), p.y (), std::sin (angle));
   }
-  const ChartMesh chart = chartOf (tube);
+  const MeshPiece chart = chartOf (tube);
   const RestShapes rest = makeRestShapes (chart);
-  Plane uv = layOutOnCircle (chart, rest, 1);
+  Plane uv = layOutOnCircle (chart, 1);
   DescentLimits limits;
   limits.steps = 500;
   limits.least_progress = 1e-9;
@@ -121,9 +121,9 @@ TEST (DistortionDescent, GetsOnWhereTrianglesAreAllButDegenerate)
   bag.triangles.erase (std::remove_if (bag.triangles.begin (), bag.triangles.end (),
                                        [] (const Triangle& t) { return t[0] == t[1]; }),
                        bag.triangles.end ());
-  const ChartMesh chart = chartOf (bag);
+  const MeshPiece chart = chartOf (bag);
   const RestShapes rest = makeRestShapes (chart);
-  Plane uv = layOutOnCircle (chart, rest, 1);
+  Plane uv = layOutOnCircle (chart, 1);
   ASSERT_EQ (uv.size (), chart.positions.size ());
   for (const Index p : chart.loop)
     EXPECT_NEAR (uv[p].norm (), 1.0, 1e-9);
@@ -216,7 +216,7 @@ TEST (Charts, FacetsAreDiscs)
     lists[facets.of_triangle[t]].push_back (static_cast<Index> (t));
   for (const std::vector<Index>& facet : lists) {
     EXPECT_LE (facet.size (), limits.most_in_facet);
-    EXPECT_FALSE (makeChartMesh (body.triangles, facet, body.positions).loop.empty ());
+    EXPECT_FALSE (cutOut (body.triangles, facet, body.positions).loop.empty ());
   }
 }
 
@@ -276,7 +276,7 @@ TEST (Rounding, WhatCannotBeRightedIsCounted)
 
 TEST (Untangling, UndoesDetailsOnly)
 {
-  const ChartMesh chart = chartOf (samples::sheet (12));
+  const MeshPiece chart = chartOf (samples::sheet (12));
   Plane flat;
   for (const Eigen::Vector3d& p : chart.positions)
     flat.emplace_back (p.x (), p.y ());
