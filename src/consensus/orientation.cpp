@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -101,25 +100,14 @@ Orientation::turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 std::vector<Triangle>
 findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam)
 {
-  struct Edge
-  {
-    Index from, to, triangle;
-  };
-  std::vector<Edge> edges;
-  edges.reserve (3 * contradicting.size ());
+  DisjointSets rows (contradicting.size ());
+  std::map<std::pair<Index, Index>, Index> triangle_at; // each edge
   for (Index t = 0; t < contradicting.size (); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto [from, to] = std::minmax (contradicting[t][i], contradicting[t][(i + 1) % 3]);
-      edges.push_back ({from, to, t});
+      const auto edge = std::minmax (contradicting[t][i], contradicting[t][(i + 1) % 3]);
+      if (const auto [other, is_new] = triangle_at.emplace (edge, t); !is_new)
+        rows.join (t, other->second);
     }
-  std::sort (edges.begin (), edges.end (), [] (const Edge& a, const Edge& b) {
-    return std::tie (a.from, a.to, a.triangle) < std::tie (b.from, b.to, b.triangle);
-  });
-  DisjointSets rows (contradicting.size ());
-  for (std::size_t i = 1; i < edges.size (); ++i)
-    if (edges[i].from == edges[i - 1].from && edges[i].to == edges[i - 1].to)
-      rows.join (edges[i].triangle, edges[i - 1].triangle);
-
   std::vector<std::size_t> length (contradicting.size (), 0);
   for (Index t = 0; t < contradicting.size (); ++t)
     ++length[rows.find (t)];
