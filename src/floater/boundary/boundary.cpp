@@ -7,6 +7,7 @@
 #include "local/planar_star.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace pcl::floater {
 std::vector<Gap>
@@ -73,25 +74,16 @@ fromUser (const Points& points, const std::vector<Index>& user_loop)
     boundary.loop.clear ();
     return boundary;
   };
-  std::vector<std::pair<Index, Index>> point_of; // (cloud index, point), ascending
-  point_of.reserve (points.cloud_index.size () + points.duplicates.size ());
+  std::unordered_map<Index, Index> point_of; // by cloud index
   for (Index p = 0; p < points.cloud_index.size (); ++p)
-    point_of.emplace_back (points.cloud_index[p], p);
-  std::sort (point_of.begin (), point_of.end ());
-  const auto find = [&] (Index cloud_index) {
-    const auto at = std::lower_bound (point_of.begin (), point_of.end (),
-                                      std::make_pair (cloud_index, Index{0}));
-    return at != point_of.end () && at->first == cloud_index ? at->second : NONE;
-  };
+    point_of.emplace (points.cloud_index[p], p);
+  for (const auto& [duplicate, kept] : points.duplicates)
+    if (const auto at = point_of.find (kept); at != point_of.end ())
+      point_of.emplace (duplicate, at->second);
   std::vector<std::uint8_t> seen (points.positions.size (), 0);
-  for (Index cloud_index : user_loop) {
-    Index p = find (cloud_index);
-    if (p == NONE) {
-      const auto duplicate = std::lower_bound (points.duplicates.begin (), points.duplicates.end (),
-                                               std::array<Index, 2>{cloud_index, 0});
-      if (duplicate != points.duplicates.end () && (*duplicate)[0] == cloud_index)
-        p = find ((*duplicate)[1]);
-    }
+  for (const Index cloud_index : user_loop) {
+    const auto at = point_of.find (cloud_index);
+    const Index p = at != point_of.end () ? at->second : NONE;
     if (p == NONE)
       return invalid ("names point " + std::to_string (cloud_index) +
                       ", which is not in the cloud, not selected, or not finite");

@@ -29,17 +29,8 @@ struct NeighborEdge
   double length; // distance
 };
 
-// An edge from one component of the graph to another.
-struct Bridge
-{
-  double sqr_length = std::numeric_limits<double>::infinity ();
-  Index a = NONE, b = NONE;
-
-  bool operator<(const Bridge& other) const
-  {
-    return std::tie (sqr_length, a, b) < std::tie (other.sqr_length, other.a, other.b);
-  }
-};
+// An edge from one component of the graph to another: squared length, and both ends.
+using Bridge = std::tuple<double, Index, Index>;
 
 // Appends bridges until the graph is connected: in each round the shortest bridge from every
 // component (Boruvka's algorithm).
@@ -62,13 +53,14 @@ connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& p
     std::vector<Index> begin (n, 0);
     for (Index i = 1; i < n; ++i)
       begin[i] = labels[tree.pointAt (i)] == labels[tree.pointAt (i - 1)] ? begin[i - 1] : i;
-    std::vector<Bridge> shortest (n); // by the label of the component
+    // By the label of the component.
+    std::vector<Bridge> shortest (n, {std::numeric_limits<double>::infinity (), NONE, NONE});
     std::vector<Neighbor> found;
     for (Index p = 0; p < n; ++p) {
       progress.next ();
       Bridge& bridge = shortest[labels[p]];
       tree.nearestIf (
-          points[p], Eigen::Vector3d::Zero (), ROUNDING * std::sqrt (bridge.sqr_length), 1,
+          points[p], Eigen::Vector3d::Zero (), ROUNDING * std::sqrt (std::get<0> (bridge)), 1,
           [&] (const Neighbor& other, const auto&) { return labels[other.point] != labels[p]; },
           found,
           [&] (Index first, Index last) {
@@ -77,9 +69,9 @@ connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& p
       for (const auto& [sqr_length, q] : found)
         bridge = std::min (bridge, Bridge{sqr_length, std::min (p, q), std::max (p, q)});
     }
-    for (const Bridge& bridge : shortest)
-      if (bridge.a != NONE && sets.join (bridge.a, bridge.b)) {
-        edges.push_back ({bridge.a, bridge.b, rank, std::sqrt (bridge.sqr_length)});
+    for (const auto& [sqr_length, a, b] : shortest)
+      if (a != NONE && sets.join (a, b)) {
+        edges.push_back ({a, b, rank, std::sqrt (sqr_length)});
         --components;
       }
   }
