@@ -109,14 +109,7 @@ private:
   void continueAround (Index p, std::vector<Index>& fan, std::vector<Index>& around,
                        std::vector<Eigen::Vector2d>& places)
   {
-    view_.fan (p, fan);
-    around.clear ();
-    for (const Index t : fan)
-      around.push_back (view_.triangles[t][TriangleMesh::next (view_.sideOf (t, p))]);
-    const Index last =
-        view_.triangles[fan.back ()][TriangleMesh::previous (view_.sideOf (fan.back (), p))];
-    if (last != around.front ())
-      around.push_back (last);
+    view_.fan (p, fan, around);
     places.clear ();
     for (const Index q : around)
       places.push_back (rays_.placeBeside (p, q));

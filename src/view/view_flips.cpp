@@ -209,16 +209,16 @@ private:
   // For inner edges.
   bool isBetterFlipped (MeshEdge e) const
   {
-    const Index other = mesh_.neighbors[e.triangle][e.side];
-    const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e);
-    const Index d = mesh_.corner (mesh_.mate (e));
-    const auto across = [this] (Index t, Index corner) {
-      return mesh_.neighbors[t][mesh_.sideOf (t, corner)];
+    const MeshEdge m = mesh_.mate (e);
+    const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
+    const auto across = [this] (MeshEdge edge, std::uint8_t side) {
+      return mesh_.neighbors[edge.triangle][side];
     };
-    const Index ca = across (e.triangle, b), bc = across (e.triangle, a);
-    const Index ad = across (other, b), db = across (other, a);
-    const Eigen::Vector3d& at_c = normals_[e.triangle];
-    const Eigen::Vector3d& at_d = normals_[other];
+    const Index bc = across (e, TriangleMesh::next (e.side));
+    const Index ca = across (e, TriangleMesh::previous (e.side));
+    const Index ad = across (m, TriangleMesh::next (m.side));
+    const Index db = across (m, TriangleMesh::previous (m.side));
+    const Eigen::Vector3d &at_c = normals_[e.triangle], &at_d = normals_[m.triangle];
     const Eigen::Vector3d at_a = normalOf ({c, a, d}), at_b = normalOf ({d, b, c});
     const double before = costOf (at_c, at_d) + costAcross (at_c, ca) + costAcross (at_c, bc) +
                           costAcross (at_d, ad) + costAcross (at_d, db);
