@@ -1,30 +1,39 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The setters and getters of options.
+// The setters and getters of options, and the getters of results.
 #include "pcl_class/reconstruction_data.h"
 
 #include <utility>
 
 namespace pcl::floater {
+#define PCL_FLOATER_GETTER(Name, Type, value)                                                      \
+  Type ReconstructionState::get##Name () const                                                     \
+  {                                                                                                \
+    return value;                                                                                  \
+  }
 // A setter and a getter of a member of the data.
 #define PCL_FLOATER_OPTION(Name, Type, parameter, member)                                          \
   void ReconstructionState::set##Name (Type parameter)                                             \
   {                                                                                                \
     data_->member = parameter;                                                                     \
   }                                                                                                \
-  Type ReconstructionState::get##Name () const                                                     \
-  {                                                                                                \
-    return data_->member;                                                                          \
-  }
+  PCL_FLOATER_GETTER (Name, Type, data_->member)
 #define PCL_FLOATER_CALLBACK(Name, Type, member)                                                   \
   void ReconstructionState::set##Name (Type callback)                                              \
   {                                                                                                \
     data_->member = std::move (callback);                                                          \
   }                                                                                                \
-  const Type& ReconstructionState::get##Name () const                                              \
-  {                                                                                                \
-    return data_->member;                                                                          \
-  }
+  PCL_FLOATER_GETTER (Name, const Type&, data_->member)
+
+namespace {
+using Place = std::array<double, 3>;
+
+pcl::Indices
+toPcl (const std::vector<std::uint32_t>& indices)
+{
+  return pcl::Indices (indices.begin (), indices.end ());
+}
+} // namespace
 
 // clang-format off
 PCL_FLOATER_OPTION (Topology, Topology, topology, options.topology)
@@ -52,9 +61,32 @@ PCL_FLOATER_OPTION (RemoveSelfIntersections, bool, remove, options.remove_self_i
 PCL_FLOATER_CALLBACK (StageCallback, std::function<void (Stage)>, options.stage_callback)
 PCL_FLOATER_CALLBACK (ProgressCallback, std::function<void (double)>, options.progress_callback)
 PCL_FLOATER_CALLBACK (CancelledCallback, std::function<bool ()>, options.cancelled_callback)
+PCL_FLOATER_GETTER (LargestHole, double, data_->options.holes.largest_hole)
+PCL_FLOATER_GETTER (LargestHoleUnit, LengthUnit, data_->options.holes.unit)
+PCL_FLOATER_GETTER (ViewPoint, const Place&, data_->options.view.viewpoint)
+PCL_FLOATER_GETTER (DiscOptions, const DiscOptions&, data_->options.disc)
+PCL_FLOATER_GETTER (PrescribedLoop, const pcl::Indices&, data_->prescribed_loop)
+PCL_FLOATER_GETTER (NumberOfThreads, unsigned int, static_cast<unsigned int> (data_->options.threads))
+
+PCL_FLOATER_GETTER (Status, RunStatus, data_->report.status)
+PCL_FLOATER_GETTER (Message, const std::string&, data_->report.message)
+PCL_FLOATER_GETTER (Report, const Report&, data_->report)
+PCL_FLOATER_GETTER (Statistics, const Statistics&, data_->report.statistics)
+PCL_FLOATER_GETTER (MeshCheck, const MeshCheck&, data_->report.check)
+PCL_FLOATER_GETTER (BoundaryLoop, pcl::Indices, toPcl (data_->report.loop))
+PCL_FLOATER_GETTER (Parameters, const std::vector<Eigen::Vector2d>&, data_->report.parameters)
+PCL_FLOATER_GETTER (Normals, const std::vector<Eigen::Vector3f>&, data_->normals)
+PCL_FLOATER_GETTER (TextureCoordinates, const TextureCoordinates&, data_->texture)
+PCL_FLOATER_GETTER (PartIDs, std::vector<int>, data_->parts)
+PCL_FLOATER_GETTER (PointStates, std::vector<int>, std::vector<int> (data_->states.begin (), data_->states.end ()))
+PCL_FLOATER_GETTER (UnusedIndices, pcl::Indices, toPcl (data_->report.unused))
+PCL_FLOATER_GETTER (OutlierIndices, pcl::Indices, toPcl (data_->report.outliers))
+PCL_FLOATER_GETTER (ScatterIndices, pcl::Indices, toPcl (data_->report.scatter))
+PCL_FLOATER_GETTER (NonFiniteIndices, pcl::Indices, toPcl (data_->report.non_finite))
 // clang-format on
 #undef PCL_FLOATER_OPTION
 #undef PCL_FLOATER_CALLBACK
+#undef PCL_FLOATER_GETTER
 
 void
 ReconstructionState::setLargestHole (double size, LengthUnit unit)
@@ -63,29 +95,10 @@ ReconstructionState::setLargestHole (double size, LengthUnit unit)
   data_->options.holes.unit = unit;
 }
 
-double
-ReconstructionState::getLargestHole () const
-{
-  return data_->options.holes.largest_hole;
-}
-
-LengthUnit
-ReconstructionState::getLargestHoleUnit () const
-{
-  return data_->options.holes.unit;
-}
-
 void
 ReconstructionState::setViewPoint (double x, double y, double z)
 {
-  data_->options.view.use = ViewUse::GIVEN;
-  data_->options.view.viewpoint = {x, y, z};
-}
-
-const std::array<double, 3>&
-ReconstructionState::getViewPoint () const
-{
-  return data_->options.view.viewpoint;
+  data_->options.view = {ViewUse::GIVEN, {x, y, z}};
 }
 
 void
@@ -95,23 +108,11 @@ ReconstructionState::setDiscOptions (const DiscOptions& options)
   data_->prescribed_loop.assign (options.boundary.loop.begin (), options.boundary.loop.end ());
 }
 
-const DiscOptions&
-ReconstructionState::getDiscOptions () const
-{
-  return data_->options.disc;
-}
-
 void
 ReconstructionState::setPrescribedLoop (const pcl::Indices& loop)
 {
   data_->prescribed_loop = loop;
   data_->options.disc.boundary.loop.assign (loop.begin (), loop.end ());
-}
-
-const pcl::Indices&
-ReconstructionState::getPrescribedLoop () const
-{
-  return data_->prescribed_loop;
 }
 
 void
@@ -120,10 +121,14 @@ ReconstructionState::setNumberOfThreads (unsigned int nr_threads)
   data_->options.threads = static_cast<int> (nr_threads);
 }
 
-unsigned int
-ReconstructionState::getNumberOfThreads () const
+std::vector<std::array<pcl::index_t, 2>>
+ReconstructionState::getDuplicates () const
 {
-  return static_cast<unsigned int> (data_->options.threads);
+  std::vector<std::array<pcl::index_t, 2>> duplicates;
+  duplicates.reserve (data_->report.duplicates.size ());
+  for (const auto& [point, other] : data_->report.duplicates)
+    duplicates.push_back ({static_cast<pcl::index_t> (point), static_cast<pcl::index_t> (other)});
+  return duplicates;
 }
 
 } // namespace pcl::floater

@@ -5,12 +5,16 @@
 
 #include "core/disjoint_sets.h"
 #include "core/problem.h"
-#include "pcl_class/pcl_neighborhoods.h"
 #include "pcl_class/reconstruction_data.h"
 
 #include <pcl/PolygonMesh.h>
 #include <pcl/TextureMesh.h>
 #include <pcl/console/print.h>
+#include <pcl/features/impl/normal_3d.hpp>
+#include <pcl/features/normal_3d.h>
+#include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
+#include <pcl/surface/impl/floater_reconstruction.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -19,10 +23,48 @@
 
 namespace pcl::floater {
 namespace {
-pcl::Indices
-toPcl (const std::vector<std::uint32_t>& indices)
+constexpr float NAN_32 = std::numeric_limits<float>::quiet_NaN ();
+
+// The whole cloud; points that are not selected are not finite.
+pcl::PointCloud<pcl::PointXYZ>::Ptr
+cloudOf (const Input& input)
 {
-  return pcl::Indices (indices.begin (), indices.end ());
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>> ();
+  cloud->resize (input.cloud_size, pcl::PointXYZ (NAN_32, NAN_32, NAN_32));
+  cloud->is_dense = false;
+  for (std::size_t row = 0; row < input.positions.size (); ++row)
+    (*cloud)[input.cloud_index[row]].getVector3fMap () = input.positions[row].cast<float> ();
+  return cloud;
+}
+
+// pcl::search::KdTree as a search method for the core. With estimateNormals, TW 385 as built from PCL;
+// the core's own are faster and use all threads. Both copy the points, in single precision.
+std::unique_ptr<NeighborSearch>
+makePclSearch (const Input& input)
+{
+  return std::make_unique<SearchMethod<pcl::PointXYZ>> (
+      pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> (), cloudOf (input));
+}
+
+// For each point of the whole cloud, by pcl::NormalEstimation: normal of the plane through it and its k
+// nearest; NaN for points that are not selected or not finite.
+std::vector<Eigen::Vector3f>
+estimateNormals (const Input& input, int k)
+{
+  const auto cloud = cloudOf (input);
+  std::vector<Eigen::Vector3f> normals (cloud->size (), Eigen::Vector3f::Constant (NAN_32));
+  if (std::none_of (cloud->begin (), cloud->end (),
+                    [] (const pcl::PointXYZ& point) { return pcl::isFinite (point); }))
+    return normals;
+  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setInputCloud (cloud);
+  estimation.setSearchMethod (pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> ());
+  estimation.setKSearch (k + 1); // PCL counts the point itself
+  pcl::PointCloud<pcl::Normal> estimated;
+  estimation.compute (estimated);
+  for (std::size_t p = 0; p < estimated.size (); ++p)
+    normals[p] = estimated[p].getNormalVector3fMap ();
+  return normals;
 }
 
 // The component of each of `size` points, from 0 in the order of their first points, or -1.
@@ -144,42 +186,6 @@ ReconstructionState::operator= (const ReconstructionState& other)
 
 ReconstructionState::~ReconstructionState () = default;
 
-RunStatus
-ReconstructionState::getStatus () const
-{
-  return data_->report.status;
-}
-
-const std::string&
-ReconstructionState::getMessage () const
-{
-  return data_->report.message;
-}
-
-const Report&
-ReconstructionState::getReport () const
-{
-  return data_->report;
-}
-
-const Statistics&
-ReconstructionState::getStatistics () const
-{
-  return data_->report.statistics;
-}
-
-const MeshCheck&
-ReconstructionState::getMeshCheck () const
-{
-  return data_->report.check;
-}
-
-const TextureCoordinates&
-ReconstructionState::getTextureCoordinates () const
-{
-  return data_->texture;
-}
-
 void
 ReconstructionState::makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& output) const
 {
@@ -202,71 +208,6 @@ ReconstructionState::makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& 
   material.tex_Ns = 0.0F;
   material.tex_illum = 1;
   output.tex_materials.push_back (material);
-}
-
-pcl::Indices
-ReconstructionState::getBoundaryLoop () const
-{
-  return toPcl (data_->report.loop);
-}
-
-const std::vector<Eigen::Vector2d>&
-ReconstructionState::getParameters () const
-{
-  return data_->report.parameters;
-}
-
-const std::vector<Eigen::Vector3f>&
-ReconstructionState::getNormals () const
-{
-  return data_->normals;
-}
-
-std::vector<int>
-ReconstructionState::getPartIDs () const
-{
-  return data_->parts;
-}
-
-std::vector<int>
-ReconstructionState::getPointStates () const
-{
-  return {data_->states.begin (), data_->states.end ()};
-}
-
-pcl::Indices
-ReconstructionState::getUnusedIndices () const
-{
-  return toPcl (data_->report.unused);
-}
-
-pcl::Indices
-ReconstructionState::getOutlierIndices () const
-{
-  return toPcl (data_->report.outliers);
-}
-
-pcl::Indices
-ReconstructionState::getScatterIndices () const
-{
-  return toPcl (data_->report.scatter);
-}
-
-pcl::Indices
-ReconstructionState::getNonFiniteIndices () const
-{
-  return toPcl (data_->report.non_finite);
-}
-
-std::vector<std::array<pcl::index_t, 2>>
-ReconstructionState::getDuplicates () const
-{
-  std::vector<std::array<pcl::index_t, 2>> duplicates;
-  duplicates.reserve (data_->report.duplicates.size ());
-  for (const std::array<std::uint32_t, 2>& pair : data_->report.duplicates)
-    duplicates.push_back (
-        {static_cast<pcl::index_t> (pair[0]), static_cast<pcl::index_t> (pair[1])});
-  return duplicates;
 }
 
 void

@@ -21,7 +21,8 @@ namespace pcl::floater {
 enum class Topology
 {
   AUTO,   ///< DISC if the boundary loop is given, else SURFACE
-  DISC,   ///< one component with one boundary loop, laid out in the plane; all holes are closed
+  DISC,   ///< one component with one boundary loop, laid out in the plane; all holes are closed. If
+          ///< the surface is no disc, a run ends with NO_BOUNDARY, NOT_A_DISC or UNREACHABLE
   SURFACE ///< any number of components, boundary loops and handles, by the consensus of the stars
 };
 
@@ -120,7 +121,7 @@ enum class ViewUse
   AUTO,  ///< if its rays are evenly spaced from some viewpoint: the origin of the sensor is tried
          ///< first; if noise is strong, the viewpoint is searched
   GIVEN, ///< yes, from ViewOptions::viewpoint; every point must be visible from there
-  NEVER  ///< no
+  NEVER  ///< no; the mesh does not face the origin of the sensor either
 };
 
 /// Which side of each component of the mesh is its front. Where the requested rule does not decide,
@@ -134,7 +135,8 @@ enum class Facing
   UP,        ///< towards +z; upright ones towards +y, or +x. Closed components face outwards
   VIEWPOINT, ///< towards the position of the sensor, which must be known. Closed components face
              ///< outwards unless the sensor was inside
-  NORMALS,   ///< where the normals of the input point to; they must be oriented
+  NORMALS,   ///< where the normals of the input point to; they must be oriented. Without normals, a
+             ///< run ends with RunStatus::INVALID_OPTION
   INWARDS    ///< opposite to OUTWARDS, also if closed: what was seen from within
 };
 
@@ -167,7 +169,7 @@ struct NeighborOptions
   Neighborhood kind = Neighborhood::NEAREST_DELAUNAY;
   int k = 20;                ///< k nearest neighbours, 6 to 200; not used for balls
   double ball_radius = 2.25; ///< radius in mean distances of the centre to its 6 nearest points, 1
-                             ///< to 10
+                             ///< to 10. The default gives about 20 neighbours
 };
 
 /// Holes of a surface. A disc takes the policies AUTO and KEEP_LARGEST only.
@@ -175,22 +177,29 @@ struct HoleOptions
 {
   HolePolicy policy = HolePolicy::AUTO;   ///< which boundary loops stay open
   int kept_loops = 1;                     ///< KEEP_COUNT: loops that stay open, 0 or more
-  double largest_hole = 0.0;              ///< BY_SIZE: width of the widest hole to fill,
-                                          ///< above 0. Ignored by other policies.
+  double largest_hole = 0.0;              ///< BY_SIZE: width of the widest hole to fill, above 0;
+                                          ///< no default would do: without it, a run ends with
+                                          ///< RunStatus::INVALID_OPTION. Ignored by other policies
   LengthUnit unit = LengthUnit::SPACINGS; ///< BY_SIZE: of largest_hole
 };
 
 /// What is cut off the finished mesh; by default, nothing. Cuts leave boundaries, also in a disc.
 /// The mesh stays a manifold: at a point with several fans of triangles, only the largest fan is
-/// kept.
+/// kept. Statistics counts what is cut off, Report::unused has points that lose all their triangles. If
+/// nothing is left, the run ends with RunStatus::DEGENERATE.
 struct TrimmingOptions
 {
   double maximum_edge_length = 0.0; ///< longest edge allowed, in units of the cloud, 0 or more; 0:
                                     ///< no limit
   double maximum_edge_ratio = 0.0;  ///< longest edge allowed, in mean local spacings of its two
-                                    ///< ends, 0 or more; 0: no limit
-  bool open_self_intersections = false; ///< remove triangles until no two cross each other
-  int minimum_component_size = 0;       ///< remove components of fewer points, 0 or more
+      ///< ends, 0 or more; 0: no limit. Edges of a good mesh are up to
+      ///< about 3 long, and up to 6 where the sampling is uneven
+  /// Remove triangles until no two cross each other: the last resort after remove_self_intersections,
+  /// for those who simulate, print or trace rays. At such places the mesh gets holes, mostly of a few
+  /// triangles.
+  bool open_self_intersections = false;
+  int minimum_component_size =
+      0; ///< remove components of fewer points, 0 or more; after the others
 };
 
 /// Scans: every point is visible from one viewpoint.
@@ -280,7 +289,8 @@ struct Options
                                          ///< projected
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
 
-  /// Called when a stage begins, by the thread that called reconstruct ().
+  /// Called when a stage begins, by the thread that called reconstruct (). An exception from it, or
+  /// from the others, ends the run with RunStatus::INTERNAL_ERROR.
   std::function<void (Stage)> stage_callback;
 
   /// Called with the fraction of the run that is done, from 0 to 1 and never decreasing: when a
@@ -293,7 +303,7 @@ struct Options
   /// Polled as often as progress_callback, by the same thread. If it returns true, the run ends
   /// with RunStatus::CANCELLED and without a mesh, mostly within a tenth of a second. Direct
   /// solvers, CGAL's triangulation and the caller's search are not interrupted; the run ends when
-  /// they return.
+  /// they return. It may read an atomic variable that another thread sets.
   std::function<bool ()> cancelled_callback;
 };
 

@@ -57,9 +57,7 @@ private:
   {
     const std::size_t count =
         std::min (static_cast<std::size_t> (std::max (found, 0)), found_.size ());
-    cloud_indices.resize (count);
-    for (std::size_t i = 0; i < count; ++i)
-      cloud_indices[i] = static_cast<std::uint32_t> (found_[i]);
+    cloud_indices.assign (found_.data (), found_.data () + count);
   }
 
   typename pcl::search::Search<PointT>::Ptr search_;
