@@ -7,28 +7,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <numeric>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
-struct Reason
-{
-  std::string cause, remedy;
-};
-
-struct Measure
-{
-  double share;
-  VerdictBounds bounds;
-  Reason reason;
-
-  Quality quality () const
-  {
-    if (share >= bounds.poor)
-      return Quality::POOR;
-    return share > bounds.good ? Quality::USABLE : Quality::GOOD;
-  }
-};
+// Why a mesh is no better, and what helps.
+using Reason = std::pair<std::string, std::string>;
 
 // Two digits: "1.8 %", "12 %".
 std::string
@@ -82,90 +68,6 @@ whyCrossing (const Report& report, double points, const VerdictLimits& limits)
           "scan more densely there; --open-crossings cuts such triangles off"};
 }
 
-std::vector<Measure>
-measure (const Report& report, const VerdictLimits& limits)
-{
-  const Statistics& statistics = report.statistics;
-  const auto triangles = static_cast<double> (std::max<std::size_t> (1, statistics.triangles));
-  const auto points = static_cast<double> (std::max<std::size_t> (1, statistics.working_points));
-  const auto share = [] (std::size_t count, double of) { return static_cast<double> (count) / of; };
-  const std::size_t pairs = report.check.self_intersections;
-  const bool has_more = report.check.has_more_self_intersections;
-  const double crossing =
-      std::max (share (pairs, triangles), has_more ? limits.crossing.poor : 0.0);
-  const double area = report.check.largest_area_share;
-  const double unused = share (report.unused.size (), points);
-  const double scatter =
-      share (report.scatter.size (), points + static_cast<double> (report.scatter.size ()));
-  const double outliers =
-      share (report.outliers.size (), points + static_cast<double> (report.outliers.size ()));
-  const auto has = [&report] (FindingId id) { return find (report, id) != nullptr; };
-  const auto flag = [] (bool is_raised, const Reason& reason) {
-    return Measure{is_raised ? 1.0 : 0.0, {0.5, 2.0}, reason};
-  };
-  const std::size_t left_open = statistics.view_steps + statistics.view_gaps;
-  const double open = share (left_open, triangles + static_cast<double> (left_open));
-  const Finding* const long_edges = find (report, FindingId::LONG_EDGES);
-  const Reason why = whyCrossing (report, points, limits);
-  const std::string crossing_pairs =
-      (has_more ? "more than " : "") +
-      counted (pairs, "pair of triangles crosses", "pairs of triangles cross") + ", one for each " +
-      rounded (std::ceil (1.0 / std::max (crossing, limits.crossing.good))) + " triangles, since " +
-      why.cause;
-  return {
-      {crossing, limits.crossing, {crossing_pairs, why.remedy}},
-      {report.is_view ? share (report.check.folds, triangles) : 0.0,
-       limits.folds,
-       {counted (report.check.folds, "edge is folded", "edges are folded") +
-            ", since the points are noisy along the rays",
-        "smooth the cloud (pcl::MovingLeastSquares), or thin it with a voxel grid several times as "
-        "wide as the noise"}},
-      {open,
-       limits.open,
-       {percent (open) + " of the view is open, at depth steps and where rays are missing",
-        "scan from another place as well: what is hidden or seen edge-on from here stays open"}},
-      {area,
-       report.is_view ? limits.area_of_view : limits.area,
-       {percent (area) + " of the area is in 1 % of the triangles, " +
-            (report.is_view ? "far from the sensor or seen edge-on"
-                            : "since far or sparse points are joined to the rest"),
-        report.is_view ? "scan from another place as well: what continues there and what is a step "
-                         "is uncertain"
-                       : "cut off triangles with long edges: --max-edge-ratio 8"}},
-      {unused,
-       limits.unused,
-       {percent (unused) + " of the points are in no triangle",
-        report.is_view ? "give the place of the sensor, or --viewpoint none"
-                       : "look at them (points of Report::unused): the sampling is too thin there, "
-                         "or they are no surface"}},
-      {scatter,
-       limits.scatter,
-       {percent (scatter) + " of the points lie on no surface, such as leaves or far background",
-        "cut them out of the cloud, or keep them with --scatter keep"}},
-      {outliers,
-       limits.outliers,
-       {percent (outliers) + " of the points lie off any surface" +
-            (report.is_view ? ", alone between rays that miss it" : "") + ", and were left out",
-        "look at them (points of Report::outliers); --remove-outliers off keeps them"}},
-      {share (statistics.projected_points, points), limits.noise, noisy (statistics)},
-      {(long_edges != nullptr ? long_edges->numbers.at (0) : 0.0) / triangles,
-       limits.long_edges,
-       {"edges inside are much longer than the spacing: the sampling is too sparse there, or a gap "
-        "was filled",
-        "more points there, or --max-edge-ratio 8"}},
-      flag (has (FindingId::NO_AREA), {"triangles have no area, since points lie on one line",
-                                       "remove points from straight edges"}),
-      flag (has (FindingId::DEEP_HOLES) || (!report.is_view && has (FindingId::SMALL_HOLES)),
-            {"holes stay open where the sampling may be thin", "--holes close-all closes them"}),
-      flag (has (FindingId::ONE_SIDED), {"the surface was cut open, since it seems one-sided",
-                                         "look at the cut: thin sheets may be joined there"}),
-      flag (has (FindingId::GUESSED_OUTSIDE) || has (FindingId::GUESSED_UP) ||
-                has (FindingId::GUESSED_TOWARDS_VIEW) || has (FindingId::GUESSED_FRONT),
-            {"which side is the front is a guess",
-             "give the place of the sensor (--viewpoint), or choose --facing"}),
-  };
-}
-
 } // namespace
 
 Verdict
@@ -174,17 +76,93 @@ judge (const Report& report, const VerdictLimits& limits)
   Verdict verdict;
   verdict.value = Quality::GOOD;
   double excess = 0.0;
-  for (const Measure& one : measure (report, limits)) {
-    const Quality quality = one.quality ();
-    const double beyond = one.share / one.bounds.good;
+  const auto measure = [&] (double share, const VerdictBounds& bounds, const Reason& reason) {
+    const Quality quality = share >= bounds.poor  ? Quality::POOR
+                            : share > bounds.good ? Quality::USABLE
+                                                  : Quality::GOOD;
+    const double beyond = share / bounds.good;
     if (quality == Quality::GOOD || quality < verdict.value ||
         (quality == verdict.value && beyond <= excess))
-      continue;
-    verdict.value = quality;
+      return;
     excess = beyond;
-    verdict.cause = one.reason.cause;
-    verdict.remedy = one.reason.remedy;
-  }
+    verdict = {quality, reason.first, reason.second};
+  };
+  const Statistics& statistics = report.statistics;
+  const auto triangles = static_cast<double> (std::max<std::size_t> (1, statistics.triangles));
+  const auto points = static_cast<double> (std::max<std::size_t> (1, statistics.working_points));
+  const auto share = [] (std::size_t count, double of) { return static_cast<double> (count) / of; };
+  const auto shareWith = [] (std::size_t count, double others) { // of all, these included
+    return static_cast<double> (count) / (others + static_cast<double> (count));
+  };
+  const std::size_t pairs = report.check.self_intersections;
+  const bool has_more = report.check.has_more_self_intersections;
+  const double crossing =
+      std::max (share (pairs, triangles), has_more ? limits.crossing.poor : 0.0);
+  const auto [why, remedy] = whyCrossing (report, points, limits);
+  measure (crossing, limits.crossing,
+           {(has_more ? "more than " : "") +
+                counted (pairs, "pair of triangles crosses", "pairs of triangles cross") +
+                ", one for each " +
+                rounded (std::ceil (1.0 / std::max (crossing, limits.crossing.good))) +
+                " triangles, since " + why,
+            remedy});
+  measure (report.is_view ? share (report.check.folds, triangles) : 0.0, limits.folds,
+           {counted (report.check.folds, "edge is folded", "edges are folded") +
+                ", since the points are noisy along the rays",
+            "smooth the cloud (pcl::MovingLeastSquares), or thin it with a voxel grid several "
+            "times as wide as the noise"});
+  const double open = shareWith (statistics.view_steps + statistics.view_gaps, triangles);
+  measure (open, limits.open,
+           {percent (open) + " of the view is open, at depth steps and where rays are missing",
+            "scan from another place as well: what is hidden or seen edge-on from here stays "
+            "open"});
+  const double area = report.check.largest_area_share;
+  measure (area, report.is_view ? limits.area_of_view : limits.area,
+           {percent (area) + " of the area is in 1 % of the triangles, " +
+                (report.is_view ? "far from the sensor or seen edge-on"
+                                : "since far or sparse points are joined to the rest"),
+            report.is_view ? "scan from another place as well: what continues there and what is a "
+                             "step is uncertain"
+                           : "cut off triangles with long edges: --max-edge-ratio 8"});
+  const double unused = share (report.unused.size (), points);
+  measure (unused, limits.unused,
+           {percent (unused) + " of the points are in no triangle",
+            report.is_view ? "give the place of the sensor, or --viewpoint none"
+                           : "look at them (points of Report::unused): the sampling is too thin "
+                             "there, or they are no surface"});
+  const double scatter = shareWith (report.scatter.size (), points);
+  measure (
+      scatter, limits.scatter,
+      {percent (scatter) + " of the points lie on no surface, such as leaves or far background",
+       "cut them out of the cloud, or keep them with --scatter keep"});
+  const double outliers = shareWith (report.outliers.size (), points);
+  measure (outliers, limits.outliers,
+           {percent (outliers) + " of the points lie off any surface" +
+                (report.is_view ? ", alone between rays that miss it" : "") + ", and were left out",
+            "look at them (points of Report::outliers); --remove-outliers off keeps them"});
+  measure (share (statistics.projected_points, points), limits.noise, noisy (statistics));
+  const Finding* const long_edges = find (report, FindingId::LONG_EDGES);
+  measure ((long_edges != nullptr ? long_edges->numbers.at (0) : 0.0) / triangles,
+           limits.long_edges,
+           {"edges inside are much longer than the spacing: the sampling is too sparse there, or a "
+            "gap was filled",
+            "more points there, or --max-edge-ratio 8"});
+  const auto flag = [&] (std::initializer_list<FindingId> ids, const Reason& reason) {
+    const bool is_raised = std::any_of (
+        ids.begin (), ids.end (), [&] (FindingId id) { return find (report, id) != nullptr; });
+    measure (is_raised ? 1.0 : 0.0, {0.5, 2.0}, reason);
+  };
+  flag ({FindingId::NO_AREA}, {"triangles have no area, since points lie on one line",
+                               "remove points from straight edges"});
+  const FindingId small = report.is_view ? FindingId::DEEP_HOLES : FindingId::SMALL_HOLES;
+  flag ({FindingId::DEEP_HOLES, small},
+        {"holes stay open where the sampling may be thin", "--holes close-all closes them"});
+  flag ({FindingId::ONE_SIDED}, {"the surface was cut open, since it seems one-sided",
+                                 "look at the cut: thin sheets may be joined there"});
+  flag ({FindingId::GUESSED_OUTSIDE, FindingId::GUESSED_UP, FindingId::GUESSED_TOWARDS_VIEW,
+         FindingId::GUESSED_FRONT},
+        {"which side is the front is a guess",
+         "give the place of the sensor (--viewpoint), or choose --facing"});
   return verdict;
 }
 
