@@ -99,11 +99,9 @@ areAlike (double a, double b)
 bool
 isFloatStep (const std::array<AxisGrid, 3>& grids, const AxisGrid& grid, double scale)
 {
-  int exponent = 0;
   const double step = scale * grid.step;
   const double nearest = std::ldexp (1.0, static_cast<int> (std::lround (std::log2 (step))));
-  const bool is_power = std::frexp (nearest, &exponent) == 0.5 && areAlike (step, nearest);
-  return is_power && grid.step > (1.0 - ALIKE) * grid.finest &&
+  return areAlike (step, nearest) && grid.step > (1.0 - ALIKE) * grid.finest &&
          grid.step < (1.0 + ALIKE) * grid.coarsest &&
          std::none_of (grids.begin (), grids.end (), [&] (const AxisGrid& other) {
            return areAlike (other.step, grid.step) && grid.step > 1.5 * other.coarsest;

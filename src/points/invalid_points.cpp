@@ -141,26 +141,20 @@ findCells (const PositionList& positions, const Eigen::AlignedBox3d& box, double
   for (const double value : VALUES) {
     if (!isAt (box.min (), value) && !isAt (box.max (), value))
       continue;
-    Eigen::AlignedBox3d others;
     std::vector<Index> cells;
-    std::vector<double> heights;
+    std::vector<double> heights; // of the others
     for (std::size_t row = 0; row < positions.size (); ++row)
-      if (positions[row].allFinite ()) {
-        if (isAt (positions[row], value)) {
-          cells.push_back (static_cast<Index> (row));
-          continue;
-        }
-        others.extend (positions[row]);
-        if (value == 0.0)
-          heights.push_back (positions[row].z ());
-      }
-    if (others.isEmpty ())
+      if (isAt (positions[row], value) && positions[row].allFinite ())
+        cells.push_back (static_cast<Index> (row));
+      else if (positions[row].allFinite ())
+        heights.push_back (positions[row].z ());
+    if (heights.empty ())
       return;
-    const double low = others.min ().z () + shift, high = others.max ().z () + shift;
+    std::sort (heights.begin (), heights.end ());
+    const double low = heights.front () + shift, high = heights.back () + shift;
     const double gap = std::max (low - value, value - high);
     bool are_cells = high > low && gap > limits.gap * (high - low);
     if (value == 0.0 && are_cells) { // it may be a floor with boxes on it
-      std::sort (heights.begin (), heights.end ());
       const auto distinct = std::unique (heights.begin (), heights.end ()) - heights.begin ();
       are_cells = gap > limits.zero_gap * (high - low) && gap >= limits.zero_height &&
                   cells.size () >= limits.fewest && cells.size () < heights.size () &&

@@ -38,7 +38,7 @@ struct InvalidPoints
 ///   far nearer than the next one; or at any other place that nothing is near, as after a registration;
 /// - cells without data in a grid of heights: z is a value such as -9999 or -32767, far below or
 ///   above all others; or 0 where the others are hundreds.
-/// Non-finite points are ignored. O(n); O(n log n) where the lowest or highest z is 0.
+/// Non-finite points are ignored. O(n); O(n log n) where the lowest or highest z is one.
 /// \param shift was subtracted from the positions
 InvalidPoints
 findInvalidPoints (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& shift,
