@@ -159,9 +159,12 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
     return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
   };
+  std::optional<Stars> begun;
+  if (known != nullptr)
+    begun = known->begunStars ();
   if (may_be_seen) {
-    samples = known != nullptr ? known->areaSamples ()
-                               : takeAreaSamples (points, planes, stars, search.samples, run);
+    samples =
+        takeAreaSamples (points, planes, stars, search.samples, run, begun ? &*begun : nullptr);
     if (const std::optional<Problem> problem =
             reconstructFrom (findViewpoint (points, planes.neighbors, samples, SearchReason::UNEVEN,
                                             search, limits.view.evidence, run)))
@@ -171,9 +174,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   Noise noise;
   if (is_measured)
     noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
-  std::optional<Stars> begun;
-  if (known != nullptr)
-    begun = known->begunStars ();
   LocalGeometry geometry =
       makeLocalGeometry (points, std::move (planes), stars, run, std::move (begun));
   if (stars.reach_beyond)

@@ -6,7 +6,6 @@
 #include "local/local_geometry.h"
 #include "options/stage_limits.h"
 #include "points/points.h"
-#include "view/ray_evidence.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -28,9 +27,6 @@ public:
 
   /// Planes of all points without outliers, without tree and neighbours beside lines.
   virtual LocalPlanes planes () = 0;
-
-  /// See takeAreaSamples.
-  virtual std::vector<AreaSample> areaSamples () = 0;
 
   /// See makeStars.
   virtual Stars begunStars () = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/run_context.h"
+#include "core/types.h"
 
 #include <algorithm>
 #include <atomic>
@@ -123,6 +124,17 @@ parallelRanges (const RunContext& run, std::size_t count, Body&& body)
   const std::size_t ranges = (count + RANGE_LENGTH - 1) / RANGE_LENGTH;
   parallelTasks (run, ranges, [&] (std::size_t r) {
     body (r * RANGE_LENGTH, std::min (count, (r + 1) * RANGE_LENGTH));
+  });
+}
+
+/// Calls body (p) for all points p below `count`, in such ranges.
+template <typename Body>
+void
+parallelPoints (const RunContext& run, std::size_t count, Body&& body)
+{
+  parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
+    for (auto p = static_cast<Index> (first); p < last; ++p)
+      body (p);
   });
 }
 

@@ -2,21 +2,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "local/local_geometry.h"
 
-#include "local/planes.h"
+#include "core/geometry.h"
+#include "core/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
-// The data for stars beyond the neighbours, if they are to reach there.
-std::optional<BeyondNeighbors>
-beyondNeighbors (const LocalPlanes& planes, const StarSettings& settings)
+constexpr std::size_t ADDED = 2; // neighbours added at a time, while all are collinear
+
+Eigen::Vector3d
+fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors,
+           const PlaneLimits& limits)
 {
-  if (!settings.reach_beyond)
-    return {};
-  return BeyondNeighbors{*planes.tree, planes.spacing, planes.beside};
+  PlaneFit core;
+  core.add (Eigen::Vector3d::Zero ()); // the point itself
+  std::size_t used = 0;
+  const auto addUpTo = [&] (std::size_t count) {
+    for (; used < std::min (count, neighbors.size ()); ++used)
+      core.add (positions[neighbors[used]] - positions[p]);
+    return core.plane ();
+  };
+  Plane plane = addUpTo (limits.core_points);
+  while (plane.aspect < limits.least_aspect && used < neighbors.size ())
+    plane = addUpTo (used + ADDED);
+  const Eigen::Vector3d first = plane.normal;
+  PlaneFit sheet;
+  sheet.add (Eigen::Vector3d::Zero ());
+  for (Index q : neighbors) {
+    const Eigen::Vector3d offset = positions[q] - positions[p];
+    if (std::abs (first.dot (offset)) <= limits.sheet_sine * offset.norm ())
+      sheet.add (offset);
+  }
+  const bool has_sheet = 2.0 * sheet.weight () > static_cast<double> (limits.core_points);
+  return has_sheet ? sheet.plane ().normal : first;
 }
 
 // Each row of one of two tables: of the first where `is_first` is not 0.
@@ -36,33 +58,26 @@ fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> 
                 const StarSettings& settings, const RunContext& run, const PlaneLimits& limits)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
-  const Rows all = Rows::all (positions.size ());
   LocalPlanes planes;
   planes.neighbors = std::move (neighbors);
-  planes.spacing = localSpacing (positions, planes.neighbors, all, run);
+  planes.spacing = localSpacing (positions, planes.neighbors, run);
   if (settings.reach_beyond) {
     if (known)
       planes.tree.emplace (std::move (*known));
     else
       planes.tree.emplace (positions, run, PointOrder::ALONG_CURVE);
-    planes.beside = findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree, all,
+    planes.beside = findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
                                      limits.least_aspect, settings.reach, run);
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
-  planes.normals = fitTangentPlanes (positions, planes.neighbors, all, run, limits);
+  planes.normals.resize (positions.size ());
+  parallelPoints (run, positions.size (), [&] (Index p) {
+    planes.normals[p] = fitNormal (positions, p, planes.neighbors.row (p), limits).cast<float> ();
+  });
   for (std::size_t p = 0; p < points.normals.size (); ++p)
     if (!points.normals[p].isZero (0.0F))
       planes.normals[p] = points.normals[p];
   return planes;
-}
-
-Stars
-makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
-             const StarSettings& settings, const RunContext& run)
-{
-  const std::optional<BeyondNeighbors> beyond = beyondNeighbors (planes, settings);
-  return makeStarsOf (centres, points.workingPositions (), planes.neighbors, planes.normals,
-                      settings, run, beyond ? &*beyond : nullptr);
 }
 
 LocalGeometry
@@ -70,18 +85,14 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
                    const RunContext& run, std::optional<Stars> begun)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
-  const Rows all = Rows::all (positions.size ());
   LocalGeometry geometry;
   if (!points.projected.empty ())
-    geometry.own_spacing = localSpacing (points.positions, planes.neighbors, all, run);
-  if (!begun) {
-    const std::optional<BeyondNeighbors> beyond = beyondNeighbors (planes, settings);
-    begun = makeStars (positions, planes.neighbors, planes.normals, all, settings, run,
-                       beyond ? &*beyond : nullptr);
-  }
-  geometry.stars = settings.reach_beyond ? finishStars (positions, planes.neighbors, planes.normals,
-                                                        std::move (*begun), settings, run)
-                                         : std::move (*begun);
+    geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
+  if (!begun)
+    begun = makeStars (positions, planes, Rows::all (positions.size ()), settings, run);
+  geometry.stars = settings.reach_beyond
+                       ? finishStars (positions, planes, std::move (*begun), settings, run)
+                       : std::move (*begun);
   geometry.neighbors = std::move (planes.neighbors);
   geometry.spacing = std::move (planes.spacing);
   if (!settings.reach_beyond)

@@ -29,29 +29,15 @@ struct LocalGeometry
   }
 };
 
-/// Input of the stars.
-struct LocalPlanes
-{
-  CsrLists neighbors;                   ///< nearest first, then the far neighbours beside lines
-  std::vector<float> spacing;           ///< of the working positions: see localSpacing
-  std::vector<Eigen::Vector3f> normals; ///< of the tangent planes: unit length, of arbitrary sign
-  std::optional<KdTree> tree;           ///< of the working positions, if stars reach beyond the
-                                        ///< neighbours
-  BesideLines beside;                   ///< neighbours beside lines, in the same case
-};
-
-/// Tangent planes and spacing by the working positions of the points. O(n k).
+/// Tangent planes and spacing by the working positions of the points. O(n k). Planes through the 8
+/// nearest neighbours, refitted to all neighbours near that plane, so that a second sheet within reach
+/// does not tilt them. If the 8 nearest are nearly collinear, as in scan lines, more are used.
 /// \param neighbors of each point, nearest first
 /// \param known     kd-tree of the working positions; otherwise built if needed
 LocalPlanes
 fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
                 const StarSettings& settings, const RunContext& run,
                 const PlaneLimits& limits = {});
-
-/// Stars of the given points; see makeStarsOf.
-Stars
-makeStarsOf (const std::vector<Index>& centres, const Points& points, const LocalPlanes& planes,
-             const StarSettings& settings, const RunContext& run);
 
 /// Stars and spacing by the working positions of the points. O(n k log k).
 /// \param begun results of makeStars () for all points, if known; then `planes` needs no tree

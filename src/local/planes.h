@@ -34,11 +34,10 @@ onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
 
 /// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
 /// triangulation that is the length of an edge. O(n).
-/// \param neighbors of the points in `rows`, nearest first
-/// \param rows      points to compute; others have 0
+/// \param neighbors nearest first
 std::vector<float>
 localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const Rows& rows, const RunContext& run);
+              const RunContext& run);
 
 /// Thresholds for the sheet of a point. The first two were chosen on the clouds of the first
 /// benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds there
@@ -53,15 +52,6 @@ struct PlaneLimits
                                ///< are added until it is reached. Points on a line with noise of
                                ///< one step are below, a third of an evenly sampled disc is above
 };
-
-/// Unit normals, of arbitrary sign: planes through the 8 nearest neighbours, refitted to all
-/// neighbours near that plane, so that a second sheet within reach does not tilt them. If the 8
-/// nearest are nearly collinear, as in scan lines, more are used. O(n k).
-/// \param neighbors of the points in `rows`, nearest first
-/// \param rows      points to compute; others are zero
-std::vector<Eigen::Vector3f>
-fitTangentPlanes (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  const Rows& rows, const RunContext& run, const PlaneLimits& limits = {});
 
 /// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
 /// own. At a sharp edge the least-squares plane follows one of the faces; the mean lies between

@@ -44,34 +44,29 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
     return {};
   const std::size_t n = geometry.spacing.size ();
   std::vector<float> share (n);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      share[p] = agreeingShare (geometry.stars, static_cast<Index> (p));
-  });
+  parallelPoints (run, n, [&] (Index p) { share[p] = agreeingShare (geometry.stars, p); });
   RegionPoints strewn{std::vector<std::uint8_t> (n), std::vector<std::uint8_t> (n),
                       std::vector<float> (n)};
   RegionPoints distant = strewn;
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const double unevenness = may_be_uneven ? static_cast<double> (noise.unevenness[p]) : 0.0;
-      const auto spacing = static_cast<double> (geometry.spacing[p]);
-      const bool is_distant = may_be_far && spacing >= around_far;
-      if (unevenness < limits.weak_unevenness && !is_distant)
-        continue;
-      const Row row = geometry.neighbors.first (static_cast<Index> (p), NEAREST);
-      auto around = static_cast<double> (share[p]);
-      for (const Index q : row)
-        around += static_cast<double> (share[q]);
-      around /= static_cast<double> (row.size () + 1);
-      if (unevenness >= limits.weak_unevenness) {
-        strewn.is_inside[p] = around <= limits.weak_share ? 1 : 0;
-        strewn.is_counted[p] = around <= limits.strong_share && unevenness >= uneven ? 1 : 0;
-        strewn.value[p] = noise.dimension[p];
-      }
-      distant.is_inside[p] = is_distant && around <= limits.strong_share ? 1 : 0;
-      distant.is_counted[p] = spacing >= far_away ? 1 : 0;
-      distant.value[p] = around <= limits.far_share ? 1.0F : 0.0F;
+  parallelPoints (run, n, [&] (Index p) {
+    const double unevenness = may_be_uneven ? static_cast<double> (noise.unevenness[p]) : 0.0;
+    const auto spacing = static_cast<double> (geometry.spacing[p]);
+    const bool is_distant = may_be_far && spacing >= around_far;
+    if (unevenness < limits.weak_unevenness && !is_distant)
+      return;
+    const Row row = geometry.neighbors.first (p, NEAREST);
+    auto around = static_cast<double> (share[p]);
+    for (const Index q : row)
+      around += static_cast<double> (share[q]);
+    around /= static_cast<double> (row.size () + 1);
+    if (unevenness >= limits.weak_unevenness) {
+      strewn.is_inside[p] = around <= limits.weak_share ? 1 : 0;
+      strewn.is_counted[p] = around <= limits.strong_share && unevenness >= uneven ? 1 : 0;
+      strewn.value[p] = noise.dimension[p];
     }
+    distant.is_inside[p] = is_distant && around <= limits.strong_share ? 1 : 0;
+    distant.is_counted[p] = spacing >= far_away ? 1 : 0;
+    distant.value[p] = around <= limits.far_share ? 1.0F : 0.0F;
   });
   std::vector<std::uint8_t> is_scatter (n), is_not_noise (n);
   const auto take = [&] (double least_mean, std::vector<std::uint8_t>& taken) {

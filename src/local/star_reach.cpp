@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -128,23 +127,10 @@ lineAround (const std::vector<Eigen::Vector3d>& positions, Index p, const CsrLis
 
 } // namespace
 
-bool
-isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const Rows& rows, double least_aspect, const RunContext& run)
-{
-  std::atomic<bool> is_any{false};
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last && !is_any; ++i)
-      if (lineAround (positions, rows[i], neighbors, least_aspect))
-        is_any = true;
-  });
-  return is_any;
-}
-
 BesideLines
 findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<float>& spacing, const KdTree& tree, const Rows& rows,
-                 double least_aspect, const ReachLimits& limits, const RunContext& run)
+                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
+                 const ReachLimits& limits, const RunContext& run)
 {
   constexpr double ROUNDED_UP = 1.0 + 1e-12;
   const std::size_t n = positions.size ();
@@ -152,11 +138,10 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
   beside.reach.assign (n, 0.0F);
   CsrLists& lists = beside.neighbors;
   lists.offsets.assign (n + 1, 0);
-  RangeLists<Index> ranges (rows.size ());
-  parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
+  RangeLists<Index> ranges (n);
+  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     std::array<std::vector<Neighbor>, 2> found_on; // the sides of the last point on a line
-    for (std::size_t i = first; i < last; ++i) {
-      const Index p = rows[i];
+    for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Eigen::Vector3d& here = positions[p];
       const Row row = neighbors.row (p);
       const std::optional<Line> found_line = lineAround (positions, p, neighbors, least_aspect);
@@ -259,15 +244,6 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open)
   return reach;
 }
 
-StarReach::StarReach (const std::vector<Eigen::Vector3d>& positions,
-                      const std::vector<Eigen::Vector3f>& normals,
-                      const std::vector<float>& spacing, const KdTree& tree,
-                      const SheetLimits& sheets, const ReachLimits& limits)
-    : positions_ (positions), normals_ (normals), spacing_ (spacing), tree_ (tree),
-      sheets_ (sheets), limits_ (limits)
-{
-}
-
 bool
 StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
                   const SheetLimits& sheets) const
@@ -277,7 +253,7 @@ StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_dis
     return false;
   // The row may contain neighbours beside a line, which are farther than the nearest.
   return std::find (centre.row.begin (), centre.row.end (), neighbor.point) == centre.row.end () &&
-         onSameSheet (centre.frame.normal, normals_[neighbor.point].cast<double> (),
+         onSameSheet (centre.frame.normal, planes_.normals[neighbor.point].cast<double> (),
                       positions_[neighbor.point] - positions_[centre.point], sheets);
 }
 
@@ -292,8 +268,8 @@ StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& s
            along * along >= limits_.most_cosine * limits_.most_cosine * neighbor.sqr_distance &&
            isNew (centre, neighbor, neighbor.sqr_distance, sheets_);
   };
-  tree_.nearestIf (here, ahead, centre.farthest, limits_.added, is_ahead, found_);
-  tree_.looked (here, reachOfSearch (found_, limits_.added, centre.farthest));
+  planes_.tree->nearestIf (here, ahead, centre.farthest, limits_.added, is_ahead, found_);
+  planes_.tree->looked (here, reachOfSearch (found_, limits_.added, centre.farthest));
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -319,9 +295,9 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
            isNew (centre, neighbor, offset.squaredNorm (), limits_.circle_sheet);
   };
   const double radius = std::sqrt (sqr_radius);
-  tree_.nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (), radius,
-                   limits_.added, is_inside, found_);
-  tree_.looked (here, radius + reachOfSearch (found_, limits_.added, radius));
+  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (), radius,
+                           limits_.added, is_inside, found_);
+  planes_.tree->looked (here, radius + reachOfSearch (found_, limits_.added, radius));
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -331,7 +307,7 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   added_.clear ();
-  const double farthest = limits_.farthest * static_cast<double> (spacing_[p]);
+  const double farthest = limits_.farthest * static_cast<double> (planes_.spacing[p]);
   const double sqr_searched =
       nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();
   const Centre centre{p, frame, row, sqr_searched, farthest};

@@ -58,19 +58,23 @@ struct BesideLines
                             ///< opposite sides; 0 for all others
 };
 
-/// Whether the neighbours of any of these points are collinear. If not, there are no neighbours
-/// beside lines.
-bool
-isAnyOnLine (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const Rows& rows, double least_aspect, const RunContext& run);
+/// Input of the stars.
+struct LocalPlanes
+{
+  CsrLists neighbors;                   ///< nearest first, then the far neighbours beside lines
+  std::vector<float> spacing;           ///< of the working positions: see localSpacing
+  std::vector<Eigen::Vector3f> normals; ///< of the tangent planes: unit length, of arbitrary sign
+  std::optional<KdTree> tree;           ///< of the working positions, if stars reach beyond the
+                                        ///< neighbours
+  BesideLines beside;                   ///< neighbours beside lines, in the same case
+};
 
 /// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
-/// \param spacing of the points in `rows` (see localSpacing)
-/// \param rows    points to process; only their neighbours are read
+/// \param spacing see localSpacing
 BesideLines
 findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<float>& spacing, const KdTree& tree, const Rows& rows,
-                 double least_aspect, const ReachLimits& limits, const RunContext& run);
+                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
+                 const ReachLimits& limits, const RunContext& run);
 
 /// Appends lists to others, row by row, in place. O(entries).
 void
@@ -92,10 +96,12 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open);
 class StarReach
 {
 public:
-  /// All arguments except the limits must outlive this.
-  StarReach (const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-             const KdTree& tree, const SheetLimits& sheets, const ReachLimits& limits);
+  /// \param positions, planes must outlive this
+  StarReach (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
+             const SheetLimits& sheets, const ReachLimits& limits)
+      : positions_ (positions), planes_ (planes), sheets_ (sheets), limits_ (limits)
+  {
+  }
 
   /// \param frame      of the plane of the star
   /// \param row        neighbours of p
@@ -125,9 +131,7 @@ private:
   void lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b);
 
   const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<Eigen::Vector3f>& normals_;
-  const std::vector<float>& spacing_;
-  const KdTree& tree_;
+  const LocalPlanes& planes_;
   SheetLimits sheets_;
   ReachLimits limits_;
   PlanarStar planar_star_;

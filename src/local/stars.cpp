@@ -28,13 +28,12 @@ class StarMaker
 public:
   StarMaker (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
              const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-             const BeyondNeighbors* beyond)
+             const LocalPlanes* beyond)
       : positions_ (positions), neighbors_ (neighbors), normals_ (normals), settings_ (settings),
         beyond_ (beyond)
   {
     if (beyond != nullptr)
-      reach_.emplace (positions, normals, beyond->spacing, beyond->tree, settings.limits,
-                      settings.reach);
+      reach_.emplace (positions, *beyond, settings.limits, settings.reach);
   }
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
@@ -136,7 +135,7 @@ private:
   const CsrLists& neighbors_;
   const std::vector<Eigen::Vector3f>& normals_;
   const StarSettings& settings_;
-  const BeyondNeighbors* beyond_;
+  const LocalPlanes* beyond_;
   PlanarStar planar_star_;
   std::optional<StarReach> reach_;
   Star star_, wider_;
@@ -149,10 +148,9 @@ largestAround (const std::vector<float>& values, const CsrLists& neighbors, cons
 {
   constexpr std::size_t NEAREST = 6;
   std::vector<float> largest = values;
-  parallelRanges (run, values.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      for (const Index q : neighbors.first (p, NEAREST))
-        largest[p] = std::max (largest[p], values[q]);
+  parallelPoints (run, values.size (), [&] (Index p) {
+    for (const Index q : neighbors.first (p, NEAREST))
+      largest[p] = std::max (largest[p], values[q]);
   });
   return largest;
 }
@@ -215,7 +213,7 @@ private:
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-           const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
+           const StarSettings& settings, const RunContext& run, const LocalPlanes* beyond)
 {
   const std::size_t n = positions.size ();
   StarsInMaking made (rows.size (), n, settings.with_offsets);
@@ -238,19 +236,18 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
 }
 
 Stars
-finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const std::vector<Eigen::Vector3f>& normals, Stars begun, const StarSettings& settings,
-             const RunContext& run)
+finishStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes, Stars begun,
+             const StarSettings& settings, const RunContext& run)
 {
   const std::size_t n = positions.size ();
-  begun.reach = largestAround (begun.reach, neighbors, run);
+  begun.reach = largestAround (begun.reach, planes.neighbors, run);
   if (begun.far_neighbors.ids.empty ())
     return begun;
   StarsInMaking made (n, n, settings.with_offsets);
   made.stars.open = std::move (begun.open);
   made.stars.normals = std::move (begun.normals);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    StarMaker maker (positions, neighbors, normals, settings, nullptr);
+    StarMaker maker (positions, planes.neighbors, planes.normals, settings, nullptr);
     std::vector<PlanarNeighbor> star;
     std::vector<Index> far;
     for (std::size_t p = first; p < last; ++p) {
@@ -281,22 +278,6 @@ finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neig
   return made.end ();
 }
 
-Stars
-makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-             const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
-             const StarSettings& settings, const RunContext& run, const BeyondNeighbors* beyond)
-{
-  StarsInMaking made (centres.size (), centres.size (), settings.with_offsets);
-  parallelRanges (run, centres.size (), [&] (std::size_t first, std::size_t last) {
-    StarMaker maker (positions, neighbors, normals, settings, beyond);
-    for (std::size_t i = first; i < last; ++i) {
-      made.stars.open[i] = maker.make (centres[i], made.stars.normals[i]) ? 1 : 0;
-      made.add (first, i, maker.star ());
-    }
-  });
-  return made.end ();
-}
-
 bool
 hasTriangle (const Stars& stars, Index p, Index q, Index r)
 {
@@ -317,18 +298,15 @@ std::vector<float>
 starAgreement (const Stars& stars, const RunContext& run)
 {
   std::vector<float> agreement (stars.open.size (), 0.0F);
-  parallelRanges (run, agreement.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t point = first; point < last; ++point) {
-      const auto p = static_cast<Index> (point);
-      const Row row = stars.neighbors.row (p);
-      std::size_t mutual = 0;
-      for (const Index q : row) {
-        const Row other = stars.neighbors.row (q);
-        mutual += std::find (other.begin (), other.end (), p) != other.end () ? 1 : 0;
-      }
-      if (row.size () > 0)
-        agreement[p] = static_cast<float> (mutual) / static_cast<float> (row.size ());
+  parallelPoints (run, agreement.size (), [&] (Index p) {
+    const Row row = stars.neighbors.row (p);
+    std::size_t mutual = 0;
+    for (const Index q : row) {
+      const Row other = stars.neighbors.row (q);
+      mutual += std::find (other.begin (), other.end (), p) != other.end () ? 1 : 0;
     }
+    if (row.size () > 0)
+      agreement[p] = static_cast<float> (mutual) / static_cast<float> (row.size ());
   });
   return agreement;
 }

@@ -29,14 +29,6 @@ struct StarSettings
   SheetLimits limits{};
 };
 
-/// Data for stars that reach beyond the given neighbours.
-struct BeyondNeighbors
-{
-  const KdTree& tree;                ///< of the positions
-  const std::vector<float>& spacing; ///< see localSpacing
-  const BesideLines& beside;         ///< its neighbours are already at the ends of the given rows
-};
-
 /// Stars of the points in their tangent planes: the neighbours connected to the centre,
 /// anti-clockwise seen along the normal. In an open star there is no triangle from the last
 /// neighbour to the first. Normals are unit vectors of arbitrary sign, so stars of neighbours may
@@ -67,29 +59,30 @@ struct Stars
 /// \param normals of each point; stars of tier 2 replace theirs
 /// \param rows    points whose stars are made; arrays have an entry for every point. The normals of
 ///                the points around are read
-/// \param beyond  for stars that may reach beyond the neighbours (see StarReach), which finishStars ()
-///                completes
+/// \param beyond  the planes, for stars that may reach beyond the neighbours (see StarReach), which
+///                finishStars () completes
 Stars
 makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
            const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
            const StarSettings& settings, const RunContext& run,
-           const BeyondNeighbors* beyond = nullptr);
+           const LocalPlanes* beyond = nullptr);
+
+/// Stars by the planes, beyond the neighbours if the settings ask for that.
+inline Stars
+makeStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
+           const Rows& rows, const StarSettings& settings, const RunContext& run)
+{
+  return makeStars (positions, planes.neighbors, planes.normals, rows, settings, run,
+                    settings.reach_beyond ? &planes : nullptr);
+}
 
 /// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum
 /// around, then removes far neighbours across a hole again: those too far for the reach of both
 /// ends.
 /// \param begun results of makeStars ()
 Stars
-finishStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const std::vector<Eigen::Vector3f>& normals, Stars begun, const StarSettings& settings,
-             const RunContext& run);
-
-/// Stars of the given points; row i belongs to centres[i]. Keeps far neighbours across holes.
-Stars
-makeStarsOf (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-             const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
-             const StarSettings& settings, const RunContext& run,
-             const BeyondNeighbors* beyond = nullptr);
+finishStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes, Stars begun,
+             const StarSettings& settings, const RunContext& run);
 
 /// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).
 bool

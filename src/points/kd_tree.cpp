@@ -31,21 +31,16 @@ KdTree::build (Index first, Index last, const RunContext& run, PointOrder order,
                std::vector<Node>& nodes)
 {
   const std::size_t self = nodes.size ();
-  nodes.push_back ({{}, first, last, NONE});
-  const bool is_leaf =
-      last - first <= (order == PointOrder::ANY ? LARGEST_LEAF : LARGEST_LEAF_OF_CURVE);
-  if (is_leaf || order == PointOrder::ANY) {
-    Eigen::AlignedBox3d box;
-    for (Index i = first; i < last; ++i)
-      box.extend (items_[i].position);
-    nodes[self].box = box;
-  }
-  if (is_leaf)
+  Eigen::AlignedBox3d box;
+  for (Index i = first; i < last; ++i)
+    box.extend (items_[i].position);
+  nodes.push_back ({box, first, last, NONE});
+  if (last - first <= (order == PointOrder::ANY ? LARGEST_LEAF : LARGEST_LEAF_OF_CURVE))
     return;
   const Index middle = first + (last - first) / 2;
   if (order == PointOrder::ANY) {
     int axis = 0;
-    nodes[self].box.sizes ().maxCoeff (&axis);
+    box.sizes ().maxCoeff (&axis);
     std::nth_element (items_.begin () + first, items_.begin () + middle, items_.begin () + last,
                       [axis] (const Item& a, const Item& b) {
                         return a.position[axis] != b.position[axis]
@@ -76,8 +71,6 @@ KdTree::build (Index first, Index last, const RunContext& run, PointOrder order,
       }
     }
   }
-  if (order == PointOrder::ALONG_CURVE)
-    nodes[self].box = nodes[self + 1].box.merged (nodes[nodes[self].right].box);
 }
 
 void

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -27,22 +28,11 @@ struct Neighbor
   }
 };
 
-/// Receives the ball that each search covered. In a tree of a block, this shows whether the block
-/// was large enough.
-class SearchWatch
-{
-public:
-  virtual ~SearchWatch () = default;
-
-  /// A result depends on all points of the cloud in this ball. May be called by several threads.
-  virtual void looked (const Eigen::Vector3d& centre, double radius) = 0;
-};
-
 /// Order of the points that a tree is built from.
 enum class PointOrder
 {
   ANY,        ///< the tree sorts them: O(n log n)
-  ALONG_CURVE ///< most are near their predecessor, as in a working set; kept in this order: O(n)
+  ALONG_CURVE ///< most are near their predecessor, as in a working set; kept in this order
 };
 
 /// Tree of boxes with buckets of points at its leaves: a kd-tree by medians, or halves of the
@@ -55,14 +45,15 @@ public:
   explicit KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run = 1,
                    PointOrder order = PointOrder::ANY);
 
-  /// Reports every following call of looked () to this watch; nullptr: to none.
-  void setWatch (SearchWatch* watch) { watch_ = watch; }
+  /// Is told the ball that each search covered: the result depends on all points of the cloud in it. In
+  /// a tree of a block, this shows whether the block was large enough. Several threads may call it.
+  std::function<void (const Eigen::Vector3d& centre, double radius)> watch;
 
-  /// Reports a ball to the watch; to be called after searches around a point of the cloud.
+  /// Tells the watch, if there is one; to be called after searches around a point of the cloud.
   void looked (const Eigen::Vector3d& centre, double radius) const
   {
-    if (watch_ != nullptr)
-      watch_->looked (centre, radius);
+    if (watch)
+      watch (centre, radius);
   }
 
   /// A radius beyond all points of a working set.
@@ -165,7 +156,6 @@ private:
 
   std::vector<Item> items_; // in the order of the leaves
   std::vector<Node> nodes_;
-  SearchWatch* watch_ = nullptr;
 };
 
 // Nodes exactly as far as the worst neighbour are visited: they may contain a point of the same

@@ -28,33 +28,25 @@ emptyLists (std::size_t points, std::size_t rows, int k)
 
 // Searches a tree for the k nearest of the rows, without themselves. NONE for missing ones: points
 // whose squared distance underflows may push them out of the results.
-// \param block of which the tree is; nullptr: of all positions
 void
-searchTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions,
-            const PointBlock* block, const Rows& rows, CsrLists& lists, const RunContext& run)
+searchTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions, const Rows& rows,
+            CsrLists& lists, const RunContext& run)
 {
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Index> places;
-    for (std::size_t i = first; i < last; ++i) {
-      Index place = rows[i];
-      if (block != nullptr) {
-        place = places.empty () ? block->placeOf (place) : places.back ();
-        while (block->points[place] < rows[i])
-          ++place;
-      }
-      places.push_back (place);
-    }
+    std::vector<Index> points;
+    for (std::size_t i = first; i < last; ++i)
+      points.push_back (rows[i]);
     const std::size_t k = lists.offsets[1];
     SequentialSearch (tree, positions, k + 1)
-        .search (places, [&] (std::size_t i, const std::vector<Neighbor>& found) {
-          tree.looked (positions[places[i]], found.size () > k
+        .search (points, [&] (std::size_t i, const std::vector<Neighbor>& found) {
+          tree.looked (positions[points[i]], found.size () > k
                                                  ? std::sqrt (found.back ().sqr_distance)
                                                  : KdTree::EVERYWHERE);
           Index* const row = lists.ids.data () + (first + i) * k;
           std::size_t count = 0;
           for (const Neighbor& neighbor : found)
-            if (neighbor.point != places[i] && count < k)
-              row[count++] = block != nullptr ? block->points[neighbor.point] : neighbor.point;
+            if (neighbor.point != points[i] && count < k)
+              row[count++] = neighbor.point;
           std::fill (row + count, row + k, NONE);
         });
   });
@@ -65,7 +57,7 @@ nearestByTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions
                int k, const RunContext& run)
 {
   CsrLists lists = emptyLists (positions.size (), rows.size (), k);
-  searchTree (tree, positions, nullptr, rows, lists, run);
+  searchTree (tree, positions, rows, lists, run);
   return lists;
 }
 
@@ -79,13 +71,15 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
 }
 
 CsrLists
-findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, int k,
-                    const RunContext& run)
+findNearestOfBlock (BlockSearch& search, std::size_t points, int k, const RunContext& run)
 {
-  CsrLists lists = emptyLists (points, rows.size (), k);
+  CsrLists lists = emptyLists (points, search.ownLast () - search.ownFirst (), k);
   do
-    searchTree (search.tree (), search.block ().positions, &search.block (), rows, lists, run);
+    searchTree (search.makeTree (run), search.positions (),
+                Rows::range (search.ownFirst (), search.ownLast ()), lists, run);
   while (search.widen ());
+  for (Index& place : lists.ids)
+    place = place == NONE ? NONE : search.points ()[place];
   return lists;
 }
 
@@ -254,43 +248,33 @@ CsrLists
 renewNeighbors (const Points& points, const std::vector<Index>& removed, const CsrLists& neighbors,
                 const NeighborSettings& settings, const RunContext& run)
 {
-  // Of each point the removed ones before it in its block, of each block those before the block.
-  constexpr std::size_t BLOCK = 128;
-  constexpr std::uint8_t GONE = 255;
-  std::vector<std::uint8_t> gone_in_block (neighbors.rows ());
-  std::vector<Index> gone_before;
-  Index gone = 0;
-  for (Index p = 0; p < neighbors.rows (); ++p) {
-    if (p % BLOCK == 0)
-      gone_before.push_back (gone);
-    const bool is_gone = gone < removed.size () && removed[gone] == p;
-    gone_in_block[p] = is_gone ? GONE : static_cast<std::uint8_t> (gone - gone_before.back ());
-    gone += is_gone ? 1 : 0;
-  }
-  const auto isGone = [&] (Index p) { return gone_in_block[p] == GONE; };
-  const auto after = [&] (Index p) { return p - gone_before[p / BLOCK] - gone_in_block[p]; };
+  std::vector<Index> number (neighbors.rows (), NONE); // of each point among those that remain
+  Index kept = 0;
+  for (Index p = 0; p < number.size (); ++p)
+    if (p - kept == removed.size () || removed[p - kept] != p)
+      number[p] = kept++;
+  const auto isGone = [&number] (Index p) { return number[p] == NONE; };
   std::vector<Index> changed; // points that lost a neighbour
-  for (Index p = 0; p < neighbors.rows (); ++p)
+  for (Index p = 0; p < number.size (); ++p)
     if (const Row row = neighbors.row (p);
         !isGone (p) && std::any_of (row.begin (), row.end (), isGone))
-      changed.push_back (after (p));
+      changed.push_back (number[p]);
   const CsrLists renewed = findNeighborsOf (Rows::of (changed), points, settings, run);
   CsrLists lists;
-  lists.offsets.reserve (neighbors.rows () + 1);
+  lists.offsets.reserve (kept + std::size_t{1});
   lists.offsets.push_back (0);
   lists.ids.reserve (neighbors.ids.size ());
   std::size_t next = 0; // among the changed
-  for (Index p = 0; p < neighbors.rows (); ++p) {
+  for (Index p = 0; p < number.size (); ++p) {
     if (isGone (p))
       continue;
-    if (next < changed.size () && changed[next] == after (p)) {
+    if (next < changed.size () && changed[next] == number[p]) {
       const Row row = renewed.row (next++);
       lists.ids.insert (lists.ids.end (), row.begin (), row.end ());
     }
-    else {
+    else
       for (const Index q : neighbors.row (p))
-        lists.ids.push_back (after (q));
-    }
+        lists.ids.push_back (number[q]);
     lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
   }
   return lists;

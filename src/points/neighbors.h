@@ -50,9 +50,9 @@ findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows&
                       const RunContext& run);
 
 /// findNearestNeighbors () for the own points of a block; widens the block where needed.
+/// \param points of the whole cloud
 CsrLists
-findNearestOfBlock (BlockSearch& search, const Rows& rows, std::size_t points, int k,
-                    const RunContext& run);
+findNearestOfBlock (BlockSearch& search, std::size_t points, int k, const RunContext& run);
 
 /// Neighbours in the mean distance that is the local spacing; also the minimum in a ball.
 constexpr std::size_t SPACING_NEIGHBORS = 6;

@@ -126,12 +126,10 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   std::vector<std::uint8_t> is_stacked = std::move (is_equal);
   const auto isInBlock = [&] (Index p) { return is_stacked_block[p / RANGE_LENGTH] != 0; };
   if (is_any_block)
-    parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-      for (auto p = static_cast<Index> (first); p < last; ++p) {
-        const Row row = neighbors.row (p);
-        if (isInBlock (p) || std::any_of (row.begin (), row.end (), isInBlock))
-          is_stacked[p] = 1;
-      }
+    parallelPoints (run, n, [&] (Index p) {
+      const Row row = neighbors.row (p);
+      if (isInBlock (p) || std::any_of (row.begin (), row.end (), isInBlock))
+        is_stacked[p] = 1;
     });
   return is_stacked;
 }

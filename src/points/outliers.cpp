@@ -288,11 +288,10 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   if (n < 3 * limits.cluster)
     return {};
   std::vector<float> reach (n, 0.0F); // distance to the 6th nearest neighbour; 0 if there are none
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      if (const Row row = neighbors.row (p); row.size () > 0)
-        reach[p] = static_cast<float> (distance (positions, static_cast<Index> (p),
-                                                 row[std::min (REACH_OF, row.size ()) - 1]));
+  parallelPoints (run, n, [&] (Index p) {
+    if (const Row row = neighbors.row (p); row.size () > 0)
+      reach[p] =
+          static_cast<float> (distance (positions, p, row[std::min (REACH_OF, row.size ()) - 1]));
   });
   std::vector<std::uint8_t> apart (n, 0);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {

@@ -9,6 +9,7 @@
 #include "points/kd_tree.h"
 
 #include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -61,7 +62,17 @@ struct Points
 
   /// A position in the frame of the cloud.
   Eigen::Vector3d inCloud (Index point) const { return centre + scale * ownPositions ()[point]; }
+
+  /// The position of a place in the frame of the cloud.
+  Eigen::Vector3d fromCloud (const std::array<double, 3>& place) const
+  {
+    return (Eigen::Map<const Eigen::Vector3d> (place.data ()) - centre) / scale;
+  }
 };
+
+/// Where a Hilbert curve through the box from -1/2 to 1/2 comes to the cell of a position.
+std::uint64_t
+hilbertCode (const Eigen::Vector3d& position);
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
 /// (the smallest cloud index represents them), and sorts along a Hilbert curve, fine enough for

@@ -10,45 +10,34 @@
 #include <cmath>
 
 namespace pcl::floater {
-std::vector<Index>
-areaSampleCentres (std::size_t points, std::size_t count)
+std::vector<AreaSample>
+takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+                 std::size_t count, const RunContext& run, const Stars* known)
 {
   // Half of them are spare: points with open stars have no area.
-  const std::size_t step = std::max<std::size_t> (1, points / (2 * count));
+  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / (2 * count));
   std::vector<Index> centres;
-  for (std::size_t p = step / 2; p < points && centres.size () < 2 * count; p += step)
+  for (std::size_t p = step / 2; p < positions.size () && centres.size () < 2 * count; p += step)
     centres.push_back (static_cast<Index> (p));
-  return centres;
-}
-
-std::vector<AreaSample>
-takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-                 const Stars& stars)
-{
+  const Stars made =
+      known ? Stars{} : makeStars (positions, planes, Rows::of (centres), settings, run);
+  const Stars& stars = known ? *known : made;
   std::vector<AreaSample> samples;
-  for (std::size_t k = 0; k < centres.size (); ++k) {
-    if (stars.open[k] != 0)
+  for (const Index p : centres) {
+    if (stars.open[p] != 0)
       continue;
-    const Eigen::Vector3d& centre = positions[centres[k]];
-    const Row star = stars.neighbors.row (static_cast<Index> (k));
+    const Eigen::Vector3d& centre = positions[p];
+    const Row star = stars.neighbors.row (p);
     double area = 0.0;
     for (std::size_t i = 0; i < star.size (); ++i)
       area += (positions[star[i]] - centre)
                   .cross (positions[star[(i + 1) % star.size ()]] - centre)
                   .norm ();
     if (area > 0.0)
-      samples.push_back ({centre, stars.normals[k].cast<double> (), area});
+      samples.push_back ({centre, stars.normals[p].cast<double> (), area});
   }
   return samples;
-}
-
-std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-                 std::size_t count, const RunContext& run)
-{
-  const std::vector<Index> centres = areaSampleCentres (points.size (), count);
-  return takeAreaSamples (centres, points.positions,
-                          makeStarsOf (centres, points, planes, settings, run));
 }
 
 std::vector<AreaSample>

@@ -16,22 +16,13 @@ struct AreaSample
   double area; ///< of its star, or of the patch around it; in any unit
 };
 
-/// At most `2 * count` points, spread evenly over the order of the points; ascending.
-std::vector<Index>
-areaSampleCentres (std::size_t points, std::size_t count);
-
-/// The samples of some points, except those with an open star. O(count).
-/// \param stars the i-th belongs to centres[i]
-std::vector<AreaSample>
-takeAreaSamples (const std::vector<Index>& centres, const std::vector<Eigen::Vector3d>& positions,
-                 const Stars& stars);
-
 /// Area samples at at most `2 * count` points, spread evenly over their order, except those with an
 /// open star. O(count).
 /// \param settings of the stars
+/// \param known    stars of all points, if they are known (see makeStars)
 std::vector<AreaSample>
 takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-                 std::size_t count, const RunContext& run);
+                 std::size_t count, const RunContext& run, const Stars* known = nullptr);
 
 /// Area samples of patches of points, for noise that spoils the stars of single points. O(count).
 /// \param neighbors nearest first

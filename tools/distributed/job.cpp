@@ -66,18 +66,6 @@ public:
     return planes;
   }
 
-  std::vector<AreaSample> areaSamples () override
-  {
-    StoredCloud cloud (context_, outliers_);
-    std::vector<AreaSample> samples;
-    for (std::size_t block = 0; block < context_.plan.blocks; ++block)
-      if (cloud.hasPoints (block)) {
-        const auto its = cloud.slice ("stars", block).read<AreaSample> ("areas");
-        samples.insert (samples.end (), its.begin (), its.end ());
-      }
-    return samples;
-  }
-
   Stars begunStars () override
   {
     StoredCloud cloud (context_, outliers_);
@@ -200,7 +188,7 @@ planStep (const Job& job, FolderStore& store)
   plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
-  writePoints (store, POINTS, plan.id, points, report.outliers, run);
+  writePoints (store, POINTS, plan.id, points, report.outliers);
   writeFile (store.path (MANIFEST), manifestText (plan),
              true); // last: with it, the step is finished
   return EXIT_OK;

@@ -70,7 +70,7 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
             std::vector<std::size_t>& firsts);
 
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 11;
+constexpr std::uint32_t WORK_FORMAT = 12;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
 struct WorkError : ToolError

@@ -7,26 +7,11 @@ StoredCloud::StoredCloud (const StepContext& context, const std::vector<Index>& 
     : context_ (context), neighbors_step_ (outliers.empty () ? "neighbors" : "planes"),
       file_ (openArrays (context.store, outliers.empty () ? POINTS : POINTS_LEFT, context.plan)),
       points_ (file_.count ("positions")),
-      cutter_ (
-          points_, file_.read<Box> ("groups"), context.plan.blocks,
-          [this] (std::size_t first, std::size_t last, std::vector<Box>& buckets) {
-            file_.append ("buckets", first, last, buckets);
-          },
-          [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
-            file_.append ("positions", first, last, positions);
-          })
+      cutter_{points_, file_.read<Box> ("buckets"), context.plan.blocks,
+              [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
+                file_.append ("positions", first, last, positions);
+              }}
 {
-}
-
-std::vector<Eigen::Vector3d>
-StoredCloud::positions (const std::vector<Index>& points)
-{
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve (points.size ());
-  forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
-    file_.append ("positions", first (block) + begin, first (block) + end, positions);
-  });
-  return positions;
 }
 
 ArrayFile&
@@ -84,17 +69,15 @@ StoredCloud::nearest (const std::vector<Index>& points)
 
 void
 writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
-             const std::vector<Index>& gross_outliers, const RunContext& run)
+             const std::vector<Index>& gross_outliers)
 {
-  const std::vector<Box> buckets = BlockCutter::makeBuckets (points.positions, run);
-  const std::vector<Box> groups = BlockCutter::makeGroups (buckets);
+  const std::vector<Box> buckets = BlockCutter::makeBuckets (points.positions);
   store.put (name,
              {{"positions", points.positions},
               {"cloud_index", points.cloud_index},
               {"normals", points.normals},
               {"facing_normals", points.facing_normals},
               {"buckets", buckets},
-              {"groups", groups},
               {"non_finite", points.non_finite},
               {"duplicates", points.duplicates},
               {"gross_outliers", gross_outliers}},

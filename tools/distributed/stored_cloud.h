@@ -33,7 +33,7 @@ readOutliers (const StepContext& context);
 /// \param gross_outliers cloud indices
 void
 writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
-             const std::vector<Index>& gross_outliers, const RunContext& run);
+             const std::vector<Index>& gross_outliers);
 
 /// Reads it.
 /// \param[out] gross_outliers cloud indices
@@ -63,7 +63,17 @@ public:
     return pointsFrom (first (block), last (block));
   }
 
-  std::vector<Eigen::Vector3d> positions (const std::vector<Index>& points);
+  /// Values of some points that are stored with these; empty if there are none of any.
+  template <typename T>
+  std::vector<T> given (const std::string& array, const std::vector<Index>& points)
+  {
+    std::vector<T> values;
+    if (file_.count (array) > 0)
+      forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
+        file_.append (array, first (block) + begin, first (block) + end, values);
+      });
+    return values;
+  }
 
   /// What a block has written in a step.
   ArrayFile& slice (const char* step, std::size_t block);

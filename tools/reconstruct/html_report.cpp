@@ -196,9 +196,9 @@ makeDrawing (const CommandLine& line, const Cloud& cloud, const Result& result)
     position = (position - drawing.centre) / drawing.unit;
   constexpr int NEAREST = 6; // that localSpacing takes
   const RunContext run (std::max (line.options.threads, 0));
-  const Rows all = Rows::all (drawing.positions.size ());
-  drawing.spacing = localSpacing (
-      drawing.positions, findNearestNeighbors (drawing.positions, all, NEAREST, run), all, run);
+  const CsrLists nearest =
+      findNearestNeighbors (drawing.positions, Rows::all (drawing.positions.size ()), NEAREST, run);
+  drawing.spacing = localSpacing (drawing.positions, nearest, run);
   std::vector<float> spacing = drawing.spacing;
   drawing.median_spacing = median (spacing);
   drawing.height = heights (drawing, line.options.threads);

@@ -6,7 +6,6 @@
 #include "mesh/known_meshes.h"
 #include "mesh/two_sides.h"
 #include "mesh_oracle.h"
-#include "points/hilbert_curve.h"
 #include "points/neighbors.h"
 
 #include <gtest/gtest.h>
