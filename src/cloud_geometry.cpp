@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud_geometry.h"
 
+#include "core/order_statistics.h"
 #include "input/input.h"
 #include "local/scatter.h"
 #include "points/outliers.h"
@@ -14,9 +15,9 @@
 
 namespace pcl::floater {
 namespace {
-// Points of a given loop, ascending. Equal points are represented by one of them.
+// The points that are not on the user's loop. Equal points are represented by one of them.
 std::vector<Index>
-pointsOfLoop (const Points& points, std::vector<Index> loop)
+exceptLoop (std::vector<Index> found, const Points& points, std::vector<Index> loop)
 {
   for (Index& index : loop) {
     const auto duplicate = std::lower_bound (points.duplicates.begin (), points.duplicates.end (),
@@ -25,16 +26,8 @@ pointsOfLoop (const Points& points, std::vector<Index> loop)
       index = (*duplicate)[1];
   }
   std::sort (loop.begin (), loop.end ());
-  return loop;
-}
-
-// The points that are not on the user's loop.
-std::vector<Index>
-exceptLoop (std::vector<Index> found, const Points& points, const std::vector<Index>& loop)
-{
-  const std::vector<Index> given = pointsOfLoop (points, loop);
   const auto is_given = [&] (Index p) {
-    return std::binary_search (given.begin (), given.end (), points.cloud_index[p]);
+    return std::binary_search (loop.begin (), loop.end (), points.cloud_index[p]);
   };
   found.erase (std::remove_if (found.begin (), found.end (), is_given), found.end ());
   return found;
@@ -42,33 +35,14 @@ exceptLoop (std::vector<Index> found, const Points& points, const std::vector<In
 
 } // namespace
 
-NeighborSettings
-neighborSettings (const Options& options, NeighborSearch* search)
+std::vector<Index>
+outliersOf (const Points& points, const CsrLists& neighbors, const Request& request)
 {
-  return {options.neighbors, search};
-}
-
-void
-removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
-                const Request& request, Report& report)
-{
-  const std::vector<Index> outliers =
-      exceptLoop (findOutliers (points.positions, neighbors, request.run, request.limits.outliers),
-                  points, request.options.disc.boundary.loop);
-  if (outliers.empty ())
-    return;
-  removeOutliers (points, outliers, report);
-  neighbors = renewNeighbors (points, outliers, neighbors, settings, request.run);
-}
-
-void
-removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report)
-{
-  if (outliers.empty ())
-    return;
-  const std::vector<Index> cloud_indices = removePoints (points, outliers);
-  report.statistics.working_points = points.total ();
-  reportOutliers (cloud_indices, FindingId::OUTLIERS, report);
+  if (!request.options.remove_outliers)
+    return {};
+  return exceptLoop (
+      findOutliers (points.positions, neighbors, request.run, request.limits.outliers), points,
+      request.options.disc.boundary.loop);
 }
 
 Problem
@@ -115,7 +89,16 @@ takeScatter (Points& points, const std::vector<Index>& scatter, const Options& o
              Report& report)
 {
   const bool drops = dropsScatter (options) && !scatter.empty ();
-  reportScatter (points, scatter, drops && options.scatter == ScatterPolicy::AUTO, report);
+  report.scatter = valuesAt (points.cloud_index, scatter);
+  for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
+    if (std::binary_search (scatter.begin (), scatter.end (), points.stacked.of[i]))
+      report.scatter.push_back (points.stacked.cloud_index[i]);
+  std::sort (report.scatter.begin (), report.scatter.end ());
+  report.statistics.scatter_points = report.scatter.size ();
+  if (drops && options.scatter == ScatterPolicy::AUTO) // not asked for
+    addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, report.scatter.size (),
+                100.0 * static_cast<double> (report.scatter.size ()) /
+                    static_cast<double> (points.total ()));
   if (drops) {
     removePoints (points, scatter);
     report.statistics.working_points = points.total ();
@@ -178,7 +161,6 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
 FacingHints
 facingHints (const Points& points, const Request& request)
 {
-  const Eigen::Map<const Eigen::Vector3d> sensor (request.sensor_origin.data ());
   FacingHints hints;
   hints.wanted = request.options.facing;
   if (!points.facing_normals.empty () &&
@@ -187,7 +169,7 @@ facingHints (const Points& points, const Request& request)
   const bool may_be_seen =
       request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
   if (may_be_seen && isSensorKnown (request.sensor_origin))
-    hints.sensor = (sensor - points.centre) / points.scale;
+    hints.sensor = points.fromCloud (request.sensor_origin);
   return hints;
 }
 

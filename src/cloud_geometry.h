@@ -12,19 +12,10 @@
 #include <pcl/surface/floater/report.h>
 
 namespace pcl::floater {
-/// \param search of the caller; nullptr: the kd-tree of the core
-NeighborSettings
-neighborSettings (const Options& options, NeighborSearch* search);
-
-/// Beyond TW 385: removes points that lie off any surface, which would become spikes. Points of the
-/// user's loop are kept.
-void
-removeOutliers (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
-                const Request& request, Report& report);
-
-/// Removes outliers that were found before, ascending; does not renew neighbours.
-void
-removeOutliers (Points& points, const std::vector<Index>& outliers, Report& report);
+/// Beyond TW 385: points that lie off any surface and are to be left out, since they would become
+/// spikes; ascending. Points of the user's loop are kept.
+std::vector<Index>
+outliersOf (const Points& points, const CsrLists& neighbors, const Request& request);
 
 /// DEGENERATE if the cloud is curves that are too far apart for a surface.
 Problem

@@ -6,14 +6,12 @@
 #include "reconstruct.h"
 
 #include "cloud_geometry.h"
-#include "finished_mesh.h"
 #include "input/input.h"
 #include "local/stars.h"
+#include "methods.h"
 #include "options/check_options.h"
-#include "reconstruct_view.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
-#include "report/report_mesh.h"
 #include "report/verdict.h"
 
 #include <algorithm>
@@ -25,91 +23,6 @@
 namespace pcl::floater {
 namespace {
 constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as others
-
-// TW 385, section 3: boundary points as one ordered loop.
-Boundary
-findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
-{
-  const BoundaryOptions& options = request.options.disc.boundary;
-  const Limits& limits = request.limits;
-  request.run.beginStage (Stage::BOUNDARY);
-  const bool is_given = !options.loop.empty ();
-  Boundary boundary =
-      is_given || options.method != BoundaryMethod::CONSENSUS
-          ? findBoundary (points, geometry, options, request.run, limits.loop)
-          : consensusLoop (points.workingPositions (), geometry, request.run, limits.surface);
-  checkBoundary (points, geometry.spacing, is_given, boundary, limits.loop);
-  return boundary;
-}
-
-// A mesh that was laid out as a disc is one, and its boundary is the loop.
-Problem
-checkDisc (const MeshExamination& found, std::vector<Index> loop)
-{
-  std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
-  bool is_right =
-      found.isManifold () && found.isDisc () && found.loops.front ().points.size () == loop.size ();
-  if (is_right && found.loops.front ().points != loop) {
-    std::reverse (loop.begin () + 1, loop.end ());
-    is_right = found.loops.front ().points == loop;
-  }
-  return is_right ? Problem{}
-                  : Problem{RunStatus::INTERNAL_ERROR,
-                            "the result is not one manifold disc within the boundary loop; "
-                            "please report this with the cloud"};
-}
-
-Problem
-reconstructDisc (const Points& points, LocalGeometry geometry, const Request& request,
-                 Result& result)
-{
-  const Options& options = request.options;
-  result.report.topology = Topology::DISC;
-  result.report.topology_reason = options.disc.as_published ? "the method of TW 385 is asked for"
-                                  : options.topology == Topology::DISC
-                                      ? "asked for"
-                                      : "its boundary loop is given";
-  const Limits& limits = request.limits;
-  StarSettings stars;
-  stars.filter_sheets = options.filter_sheets;
-  stars.limits = limits.sheets;
-  Disc disc =
-      makeDisc (points, geometry, findLoop (points, geometry, request),
-                {options, stars, limits.disc, limits.surface.finish, facingHints (points, request)},
-                request.run);
-  reportDisc (points, disc, result.report);
-  if (disc.problem)
-    return disc.problem;
-  MeshExamination found = examine (disc.mesh, points, geometry, request);
-  checkCrossing (disc.mesh.triangles, points, request.run, found, std::move (disc.finish.crossing));
-  if (Problem problem = checkDisc (found, disc.boundary.loop))
-    return problem;
-  return useMesh (std::move (disc.mesh), disc.finish, found, points, geometry, request, result);
-}
-
-Problem
-reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
-                    Result& result)
-{
-  const Options& options = request.options;
-  Report& report = result.report;
-  const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
-                                 request.limits.surface, facingHints (points, request)};
-  Surface surface = makeSurface (points, geometry, settings, request.run);
-  report.topology = Topology::SURFACE;
-  reportLoops (points, surface, report);
-  std::optional<Points> all;
-  if (!points.stacked.of.empty ()) {
-    all = addStacked (surface.mesh, points, geometry, surface.finish, request);
-    repairSplits (surface.mesh, points, *all, geometry, request, surface.finish);
-  }
-  const Points& vertices = all ? *all : points;
-  MeshExamination found = examine (surface.mesh, vertices, geometry, request);
-  checkCrossing (surface.mesh.triangles, vertices, request.run, found,
-                 std::move (surface.finish.crossing));
-  return useMesh (std::move (surface.mesh), surface.finish, found, vertices, geometry, request,
-                  result);
-}
 
 // Whether stars are open as along the border of a sheet. A square has four times as many points on
 // it as the root of all, and a third of their stars are open: the others reach back. Half of that.
@@ -132,20 +45,22 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   Report& report = result.report;
   const bool as_disc = asksForDisc (options), may_be_seen = mayBeSeen (options);
   run.beginStage (Stage::NEIGHBORS);
-  const NeighborSettings settings = neighborSettings (options, searcher);
+  const NeighborSettings settings{options.neighbors, searcher};
   std::optional<KdTree> tree; // searched again for the stars of a surface
   CsrLists neighbors = known != nullptr
                            ? CsrLists{}
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   if (known == nullptr && !as_disc)
     reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
-  const std::size_t searched = points.size ();
-  if (known != nullptr)
-    removeOutliers (points, known->outliers (), report);
-  else if (options.remove_outliers)
-    removeOutliers (points, neighbors, settings, request, report);
-  if (points.size () != searched)
+  const std::vector<Index> outliers =
+      known != nullptr ? known->outliers () : outliersOf (points, neighbors, request);
+  if (!outliers.empty ()) {
+    reportOutliers (removePoints (points, outliers), FindingId::OUTLIERS, report);
+    report.statistics.working_points = points.total ();
+    if (known == nullptr)
+      neighbors = renewNeighbors (points, outliers, neighbors, settings, run);
     tree.reset ();
+  }
   if (Problem problem = checkPoints (points))
     return problem;
   run.beginStage (Stage::STARS);
@@ -247,10 +162,8 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
     return problem;
 
   if (mayBeSeen (options))
-    if (const std::optional<Viewpoint> viewpoint = knownViewpoint (points, request))
-      if (const std::optional<Problem> problem =
-              reconstructKnownView (points, *viewpoint, request, result))
-        return *problem;
+    if (const std::optional<Problem> problem = reconstructKnownView (points, request, result))
+      return *problem;
   return reconstructByNeighbors (points, input.search, request, known, result);
 }
 
@@ -262,13 +175,13 @@ reconstruct (Input input, const Options& options, const Limits& limits, KnownSta
   Result result;
   Problem problem;
   try {
-    RunMonitor monitor (
-        {options.stage_callback, options.progress_callback, options.cancelled_callback},
-        result.report.statistics);
-    const RunContext context (options.threads, &monitor);
-    const bool has_plane_normals = !input.normals.empty ();
     const Options effective = effectiveOptions (options);
     const Limits effective_limits = effectiveLimits (limits, options);
+    RunMonitor monitor (
+        {options.stage_callback, options.progress_callback, options.cancelled_callback},
+        result.report.statistics, asksForDisc (effective));
+    const RunContext context (options.threads, &monitor);
+    const bool has_plane_normals = !input.normals.empty ();
     problem = reconstructAny (input, {effective, effective_limits, context, input.sensor_origin},
                               known, result);
     describeFindings (result.report);

@@ -70,9 +70,9 @@ HelperThreads::help ()
   }
 }
 
-RunMonitor::RunMonitor (Callbacks callbacks, Statistics& statistics)
+RunMonitor::RunMonitor (Callbacks callbacks, Statistics& statistics, bool is_disc)
     : callbacks_ (std::move (callbacks)), statistics_ (statistics),
-      is_watched_ (callbacks_.progress || callbacks_.cancelled)
+      is_watched_ (callbacks_.progress || callbacks_.cancelled), is_disc_ (is_disc)
 {
 }
 
@@ -182,13 +182,6 @@ RunContext::beginStep (double until) const
     monitor_->beginStep (until);
   else
     poll ();
-}
-
-void
-RunContext::setMethod (Topology method) const
-{
-  if (monitor_ != nullptr && !is_within_stage_)
-    monitor_->setMethod (method);
 }
 
 ProgressLoop::ProgressLoop (const RunContext& run, std::size_t items)

@@ -80,13 +80,11 @@ class RunMonitor
 {
 public:
   /// \param statistics receives the times; must outlive the monitor
-  RunMonitor (Callbacks callbacks, Statistics& statistics);
+  /// \param is_disc    the mesh is made as a disc, whose stages take other shares of the run
+  RunMonitor (Callbacks callbacks, Statistics& statistics, bool is_disc = false);
   ~RunMonitor () { stopClock (); }
   RunMonitor (const RunMonitor&) = delete; // a copy would count the time twice
   RunMonitor& operator= (const RunMonitor&) = delete;
-
-  /// Sets the method that makes the mesh, DISC or SURFACE (the default).
-  void setMethod (Topology method) { is_disc_ = method == Topology::DISC; }
 
   /// A stage begins. Its share of the progress includes the shares of skipped stages. Does nothing
   /// if the stage is running already.
@@ -128,11 +126,10 @@ private:
   Callbacks callbacks_;
   Statistics& statistics_;
   std::thread::id owner_ = std::this_thread::get_id ();
-  bool is_watched_;
+  bool is_watched_, is_disc_;
   std::atomic<bool> is_cancelled_{false};
   Stage stage_ = Stage::COUNT; // running stage; COUNT: none
   Clock::time_point stage_start_, last_poll_, next_poll_;
-  bool is_disc_ = false;
   std::size_t next_stage_ = 0; // after the running one
   bool is_in_loop_ = false;
   bool has_step_ = false; // announced, but no loop has run through it yet
@@ -167,7 +164,6 @@ public:
   /// \throws Cancelled
   void beginStage (Stage stage) const;
   void beginStep (double until) const;
-  void setMethod (Topology method) const;
   void poll () const
   {
     if (monitor_ != nullptr && monitor_->isWatched ())

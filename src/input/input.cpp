@@ -78,25 +78,24 @@ leaveOutInvalid (Input& input, const MayGo& mayGo, const InvalidPointLimits& lim
 {
   const Eigen::Vector3d shift (input.shift.data ());
   const InvalidPoints found = findInvalidPoints (input.positions, shift, limits);
-  const auto tell = [&] (std::vector<Index> rows, const auto& add) {
-    rows.erase (
-        std::remove_if (rows.begin (), rows.end (), [&] (Index row) { return !mayGo (row); }),
-        rows.end ());
+  const auto leaveOut = [&] (const std::vector<Index>& rows) {
+    double count = 0.0;
     for (const Index row : rows)
-      input.positions[row].setConstant (std::numeric_limits<double>::quiet_NaN ());
-    if (!rows.empty ())
-      add (static_cast<double> (rows.size ()));
+      if (mayGo (row)) {
+        input.positions[row].setConstant (std::numeric_limits<double>::quiet_NaN ());
+        ++count;
+      }
+    return count;
   };
-  tell (found.pixels, [&] (double count) {
+  if (const double count = leaveOut (found.pixels); count > 0.0) {
     constexpr double PERCENT = 100.0;
     const Eigen::Vector3d place = found.place + shift;
     addFinding (report, FindingId::INVALID_PIXELS, {}, {}, count,
                 PERCENT * count / static_cast<double> (input.positions.size ()), place.x (),
                 place.y (), place.z ());
-  });
-  tell (found.cells, [&] (double count) {
+  }
+  if (const double count = leaveOut (found.cells); count > 0.0)
     addFinding (report, FindingId::INVALID_CELLS, {}, {}, count, found.height, found.gap);
-  });
 }
 
 Problem
@@ -118,7 +117,10 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   std::vector<Index> rows;
   for (const Index row : found.unbearable) {
     if (!are_few || !mayGo (row))
-      return tooFarAway (input.cloud_index[row], input.positions[row]);
+      return {RunStatus::DEGENERATE,
+              placeText (input.cloud_index[row], input.positions[row]) +
+                  " is so far away that double precision cannot hold it together with the others: "
+                  "take such points out of the cloud, or have outliers left out"};
     rows.push_back (row);
   }
   std::copy_if (found.isolated.begin (), found.isolated.end (), std::back_inserter (rows), mayGo);
@@ -145,8 +147,6 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
     return problem;
   if (Problem problem = checkFacing (input, options))
     return problem;
-  if (asksForDisc (options))
-    run.setMethod (Topology::DISC);
 
   run.beginStage (Stage::WORKING_SET);
   if (Problem problem = cleanInput (input, options, request.limits, run, report))

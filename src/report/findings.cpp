@@ -162,6 +162,12 @@ areInOrder ()
 }
 static_assert (areInOrder (), "each finding has a sentence, in the order of FindingId");
 
+std::string_view
+textOf (FindingId id)
+{
+  return SENTENCES[static_cast<std::size_t> (id)].text;
+}
+
 std::string
 fill (std::string_view text, const Finding& finding);
 
@@ -229,12 +235,6 @@ placeText (std::uint32_t index, const Eigen::Vector3d& at)
 }
 
 std::string
-place (const Points& points, Index p)
-{
-  return placeText (points.cloud_index[p], points.inCloud (p));
-}
-
-std::string
 rounded (double value)
 {
   constexpr double WHOLE = 1e15; // double precision holds all whole numbers up to here
@@ -254,20 +254,16 @@ findingName (FindingId id)
 std::string
 sentenceOf (const Finding& finding)
 {
-  return fill (SENTENCES[static_cast<std::size_t> (finding.id)].text, finding);
+  return fill (textOf (finding.id), finding);
 }
 
 void
 describeFindings (Report& report)
 {
-  const auto rowOf = [] (const Finding& finding) -> const Sentence& {
-    return SENTENCES[static_cast<std::size_t> (finding.id)];
-  };
   for (Finding& finding : report.findings)
-    finding.severity = rowOf (finding).severity;
-  const auto cost = [&rowOf] (const Finding& finding) { // of what there are most
-    const bool has_count =
-        std::string_view (rowOf (finding).text).find ("{0:") != std::string_view::npos;
+    finding.severity = SENTENCES[static_cast<std::size_t> (finding.id)].severity;
+  const auto cost = [] (const Finding& finding) { // of what there are most
+    const bool has_count = textOf (finding.id).find ("{0:") != std::string_view::npos;
     return std::make_pair (finding.severity, has_count ? finding.numbers.at (0) : 0.0);
   };
   std::stable_sort (report.findings.begin (), report.findings.end (),

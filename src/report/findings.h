@@ -18,8 +18,6 @@ counted (std::size_t count, const char* one, const char* several);
 /// Cloud index and position: "point 7 (1.5, 0, 2.25)".
 std::string
 placeText (Index cloud_index, const Eigen::Vector3d& at);
-std::string
-place (const Points& points, Index p);
 
 /// A number with three significant digits: "15.6", "2.44e+13". Whole numbers have all of theirs.
 std::string

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a report says of the cloud and of its front side.
+// What a report says of the cloud.
 #pragma once
 
-#include "core/problem.h"
 #include "core/types.h"
 #include "points/coordinate_grid.h"
 #include "points/net.h"
@@ -20,21 +19,11 @@ namespace pcl::floater {
 void
 reportPoints (const Points& points, Report& report);
 
-/// The error for a point too far from the others.
-Problem
-tooFarAway (Index cloud_index, const Eigen::Vector3d& position);
-
 /// Points left out of the mesh, with a finding; adds them to those reported before.
 /// \param outliers cloud indices
 /// \param what     GROSS_OUTLIERS or OUTLIERS
 void
 reportOutliers (const std::vector<Index>& outliers, FindingId what, Report& report);
-
-/// Points of no surface.
-/// \param is_unasked whether they are left out though nobody asked for it, which is worth a warning
-void
-reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_unasked,
-               Report& report);
 
 /// Points that lie on others.
 void

@@ -4,6 +4,7 @@
 
 #include "core/order_statistics.h"
 #include "report/findings.h"
+#include "report/verdict.h"
 
 #include <algorithm>
 #include <cmath>
@@ -211,6 +212,88 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
                 widest->width * points.scale, widest->width / widest->spacing);
 }
 
+namespace {
+// Thresholds for the report. They do not change the mesh.
+constexpr std::size_t TINY_OBJECT = 20; // a part is tiny if the mesh has this many times its
+                                        // triangles
+constexpr double SURE_FACING = 0.9;     // confidence; lower ones are reported
+constexpr double GUESSED_FACING = 0.6;  // confidence; a warning below
+
+// Some parts of the mesh.
+struct Pieces
+{
+  std::size_t count = 0, triangles = 0;
+  const FacingObject* largest = nullptr;
+
+  void add (const FacingObject& object)
+  {
+    ++count;
+    triangles += object.triangles;
+    if (largest == nullptr || object.triangles > largest->triangles)
+      largest = &object;
+  }
+};
+
+FindingId
+guessOf (Facing wanted)
+{
+  if (wanted == Facing::OUTWARDS || wanted == Facing::INWARDS)
+    return FindingId::GUESSED_OUTSIDE;
+  if (wanted == Facing::UP)
+    return FindingId::GUESSED_UP;
+  return wanted == Facing::VIEWPOINT ? FindingId::GUESSED_TOWARDS_VIEW : FindingId::GUESSED_FRONT;
+}
+
+FindingId
+findingOf (FacingMiss miss, Facing wanted)
+{
+  if (miss == FacingMiss::CONTRADICTION)
+    return FindingId::NORMALS_CONTRADICT;
+  if (miss == FacingMiss::NO_NORMALS)
+    return FindingId::NORMALS_MISSING;
+  return wanted == Facing::UP ? FindingId::CLOSED_HAS_NO_UP : FindingId::VIEWPOINT_OUTSIDE;
+}
+
+// Reports rule and confidence of the front of each part of the mesh. Warns of guesses, and where the
+// requested rule did not decide.
+void
+reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report)
+{
+  std::size_t triangles = 0;
+  for (const FacingObject& object : facing.objects)
+    triangles += object.triangles;
+  Pieces guessed;
+  std::array<Pieces, static_cast<std::size_t> (FacingMiss::COUNT)> missed;
+  for (const FacingObject& object : facing.objects) {
+    ++report.facing_parts[static_cast<std::size_t> (object.rule)];
+    report.facing_certainty = std::min (report.facing_certainty, object.certainty);
+    if (object.miss != FacingMiss::NOTHING)
+      missed[static_cast<std::size_t> (object.miss)].add (object);
+    if (object.certainty >= SURE_FACING)
+      continue;
+    report.facing_decisions.push_back (
+        {object.triangles, points.cloud_index[object.at], object.rule, object.certainty});
+    if (object.certainty < GUESSED_FACING && TINY_OBJECT * object.triangles >= triangles)
+      guessed.add (object);
+  }
+  std::stable_sort (
+      report.facing_decisions.begin (), report.facing_decisions.end (),
+      [] (const FacingDecision& a, const FacingDecision& b) { return a.certainty < b.certainty; });
+  if (facing.lacks_viewpoint)
+    addFinding (report, FindingId::NO_VIEWPOINT, points, {});
+  const auto add = [&] (FindingId id, const Pieces& pieces) {
+    if (pieces.count > 0 && TINY_OBJECT * pieces.triangles >= triangles)
+      addFinding (report, id, points, {pieces.largest->at}, pieces.count);
+  };
+  for (std::size_t miss = 0; miss < missed.size (); ++miss)
+    add (findingOf (static_cast<FacingMiss> (miss), wanted), missed[miss]);
+  add (guessOf (wanted), guessed);
+}
+
+// Figures, the reason if no disc was made, points in no triangle (except those listed as outliers), and
+// the longest loop if there is none yet. Warns, with positions, of unused points, folds, long edges,
+// triangles without area, components of a few points, and small holes that no option asked for.
+// \return INTERNAL_ERROR unless the mesh is an oriented manifold
 Problem
 reportCheck (const Points& points, const MeshExamination& found, const Options& options,
              Report& report)
@@ -226,7 +309,10 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
             "the result is not an oriented manifold: " +
                 std::to_string (found.check.nonmanifold_edges) + " edges and " +
                 std::to_string (found.check.nonmanifold_vertices) + " points are not manifold" +
-                (found.broken_at == NONE ? "" : ", one at " + place (points, found.broken_at)) +
+                (found.broken_at == NONE
+                     ? ""
+                     : ", one at " + placeText (points.cloud_index[found.broken_at],
+                                                points.inCloud (found.broken_at))) +
                 "; please report this with the cloud"};
   if (report.loop.empty () && !found.loops.empty ()) {
     report.loop = valuesAt (points.cloud_index, found.loops.front ().points);
@@ -238,11 +324,25 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
   return {};
 }
 
+} // namespace
+
 Problem
-reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOptions& options,
-                std::size_t triangles_left, Report& report)
+reportMesh (const Points& points, const std::vector<Triangle>& triangles,
+            const MeshExamination& found, const MeshFinish& finish, const Trimming& trimming,
+            const Options& options, Report& report)
 {
   Statistics& statistics = report.statistics;
+  statistics.flips = finish.flips;
+  statistics.necks_cut = finish.necks_cut;
+  statistics.remade_points = finish.remade.points ();
+  statistics.self_intersection_flips = finish.repairs.flips;
+  statistics.self_intersection_moves = finish.repairs.moves;
+  statistics.self_intersection_rebuilds = finish.repairs.rebuilds;
+  statistics.triangles = triangles.size ();
+  if (Problem problem = reportCheck (points, found, options, report))
+    return problem;
+  report.check.largest_area_share = largestAreaShare (triangles, points.positions);
+  // Nothing is said of what was trimmed: it was asked for.
   statistics.trimmed_triangles = trimming.triangles;
   statistics.opened_triangles = trimming.crossing;
   statistics.trimmed_components = trimming.components;
@@ -251,9 +351,10 @@ reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOp
   for (const Index p : trimming.points)
     report.unused.push_back (points.cloud_index[p]);
   std::sort (report.unused.begin (), report.unused.end ());
-  if (triangles_left > 0 || trimming.triangles == 0)
-    return {};
-  return {RunStatus::DEGENERATE, whyNothingIsLeft (trimming, options)};
+  if (triangles.empty () && trimming.triangles > 0)
+    return {RunStatus::DEGENERATE, whyNothingIsLeft (trimming, options.trimming)};
+  reportFacing (points, finish.facing, options.facing, report);
+  return {};
 }
 
 } // namespace pcl::floater

@@ -25,25 +25,14 @@ reportDisc (const Points& points, const Disc& disc, Report& report);
 void
 reportLoops (const Points& points, const Surface& surface, Report& report);
 
-/// Reports rule and confidence of the front of each part of the mesh. Warns of guesses, and where
-/// the requested rule did not decide.
-void
-reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report);
-
-/// Reports the result of checkMesh (): figures, the reason if no disc was made, points in no
-/// triangle (except those listed as outliers), and the longest loop if there is none yet. Warns,
-/// with positions, of unused points, folds, long edges, triangles without area, components of a few
-/// points, and small holes that no option asked for.
-/// \return INTERNAL_ERROR unless the mesh is an oriented manifold
+/// Reports the finished mesh: its examination, what was trimmed, points in no triangle, and which rule
+/// turned each part, with what confidence. Warns of flaws, small holes that no option asked for, and
+/// guesses.
+/// \return INTERNAL_ERROR unless the mesh is an oriented manifold; DEGENERATE if trimming has left no
+///     triangle
 Problem
-reportCheck (const Points& points, const MeshExamination& found, const Options& options,
-             Report& report);
-
-/// Reports what was trimmed, and points that lost all their triangles. Does not warn: it was
-/// requested. Call it after reportCheck ().
-/// \return DEGENERATE if no triangle is left
-Problem
-reportTrimming (const Points& points, const Trimming& trimming, const TrimmingOptions& options,
-                std::size_t triangles_left, Report& report);
+reportMesh (const Points& points, const std::vector<Triangle>& triangles,
+            const MeshExamination& found, const MeshFinish& finish, const Trimming& trimming,
+            const Options& options, Report& report);
 
 } // namespace pcl::floater

@@ -173,10 +173,7 @@ TEST (RunMonitor, StepsAndLoops)
   const double end = recorder.done;
   EXPECT_NEAR (middle, 0.5 * (begin + end), 1e-12);
   EXPECT_NEAR (later, 0.5 * (middle + end), 1e-12);
-  // With the other method, the rest of the run is divided among its stages anew.
-  run.setMethod (Topology::DISC);
-  run.beginStage (Stage::STARS);
-  run.beginStage (Stage::SOLVE);
+  run.beginStage (Stage::CONSENSUS);
   EXPECT_GE (recorder.done, end);
   EXPECT_LT (recorder.done, 1.0);
   recorder.monitor.finish ();

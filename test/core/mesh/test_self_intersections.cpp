@@ -199,7 +199,7 @@ TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
   checkCrossing (triangles, points, 1, found);
   EXPECT_TRUE (found.check.has_more_self_intersections);
   Report report;
-  ASSERT_FALSE (reportCheck (points, found, {}, report));
+  ASSERT_FALSE (reportMesh (points, triangles, found, {}, {}, {}, report));
   describeFindings (report);
   EXPECT_NE (testing::PrintToString (report.warnings).find ("more than"), std::string::npos);
   // What was not tested is cut off, too: no two triangles of the rest cross.
@@ -228,7 +228,7 @@ TEST (SelfIntersections, AreInTheReportWithPlaces)
     EXPECT_EQ (at[i][1], points.cloud_index[triangles[pairs[i].second][0]]);
   }
   Report report;
-  ASSERT_FALSE (reportCheck (points, found, {}, report));
+  ASSERT_FALSE (reportMesh (points, triangles, found, {}, {}, {}, report));
   describeFindings (report);
   EXPECT_NE (testing::PrintToString (report.warnings)
                  .find (std::to_string (pairs.size ()) + " pairs of triangles cross"),

@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "methods.h"
+
+#include "cloud_geometry.h"
+#include "core/order_statistics.h"
+#include "input/input.h"
+#include "mesh/check.h"
+#include "mesh/flaw_repair.h"
+#include "mesh/trimming.h"
+#include "mesh/vertex_splits.h"
+#include "report/findings.h"
+#include "report/report_cloud.h"
+#include "report/report_mesh.h"
+#include "view/view_method.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pcl::floater {
+namespace {
+// What a method has made.
+struct Draft
+{
+  TriangleMesh mesh;
+  MeshFinish finish;
+  std::optional<MeshExamination> found = {}; // of the points that are not set aside, if it is known
+  bool is_doubtful = false;                  // a view in which many points are in no triangle
+};
+
+// Examines the mesh on the input points, independently of earlier stages.
+MeshExamination
+examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+         const Request& request)
+{
+  request.run.beginStage (Stage::CHECK);
+  return checkMesh (mesh, points, geometry.meshSpacing (), request.run, request.limits.check);
+}
+
+// Points that were set aside get the point that stands for them as a neighbour, and its neighbours.
+void
+extendNeighbors (CsrLists& neighbors, const std::vector<Index>& of)
+{
+  std::size_t entries = neighbors.ids.size ();
+  for (const Index p : of)
+    entries += neighbors.row (p).size () + 1;
+  neighbors.ids.reserve (entries); // rows stay where they are
+  for (const Index p : of) {
+    const Row row = neighbors.row (p);
+    neighbors.ids.push_back (p);
+    for (const Index q : row)
+      neighbors.ids.push_back (q);
+    neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
+  }
+}
+// Adds the points that were set aside to the mesh, unless the point that stands for them is not in it;
+// extends the geometry but for the neighbours, and what was made anew. Returns all points.
+Points
+addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry, MeshFinish& finish,
+            const Request& request)
+{
+  const std::vector<Index>& of = points.stacked.of;
+  const auto extend = [&of] (auto& values) {
+    if (!values.empty ())
+      for (const Index p : of)
+        values.push_back (values[p]);
+  };
+  extend (geometry.spacing);
+  extend (geometry.own_spacing);
+  extend (geometry.stars.normals);
+  extend (finish.remade.is_remade);
+  std::vector<Index> added;
+  for (std::size_t i = 0; i < of.size (); ++i)
+    if (mesh.triangle_of[of[i]] != NONE)
+      added.push_back (static_cast<Index> (points.size () + i));
+  Points all = withStacked (points);
+  splitVertices (mesh, all.positions, added, request.limits.splits, request.run);
+  return all;
+}
+
+// Repairs the flaws of a mesh with the points that were set aside; the neighbours go.
+// \param points without these points
+// \param all    as addStacked () returned it
+void
+repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeometry& geometry,
+              const Request& request)
+{
+  auto& [mesh, finish, found, is_doubtful] = draft;
+  finish.crossing = findSelfIntersections (mesh.triangles, all.positions, request.run);
+  finish.pairs_found = std::max (finish.pairs_found, finish.crossing->size ());
+  if (!repairsFlaws (request.options) ||
+      (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
+    return;
+  extendNeighbors (geometry.neighbors, points.stacked.of);
+  repairAtEnd (mesh, all.positions, geometry, request.limits.surface.finish, finish, request.run);
+  geometry.neighbors = {};
+}
+
+// A mesh that was laid out as a disc is one, and its boundary is the loop.
+Problem
+checkDisc (const Points& points, const MeshExamination& found, std::vector<Index> loop)
+{
+  std::vector<Index> border;
+  if (found.isManifold () && found.isDisc ())
+    border = valuesAt (points.cloud_index, found.loops.front ().points);
+  for (std::vector<Index>* one : {&border, &loop})
+    std::rotate (one->begin (), std::min_element (one->begin (), one->end ()), one->end ());
+  if (border != loop && !loop.empty ())
+    std::reverse (loop.begin () + 1, loop.end ());
+  return border == loop ? Problem{}
+                        : Problem{RunStatus::INTERNAL_ERROR,
+                                  "the result is not one manifold disc within the boundary loop; "
+                                  "please report this with the cloud"};
+}
+
+// Points that a view leaves out, also those alone between rays.
+void
+reportLeftOut (const Points& points, const MeshExamination& found, const LocalGeometry& geometry,
+               bool is_doubtful, const Request& request, Report& report)
+{
+  if (is_doubtful)
+    addFinding (report, FindingId::DOUBTFUL_VIEWPOINT, points, {}, found.unused.size (),
+                points.size ());
+  if (request.options.remove_outliers) {
+    report.statistics.working_points = points.size () - found.unused.size ();
+    reportOutliers (valuesAt (points.cloud_index, found.unused), FindingId::OUTLIERS, report);
+  }
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), request.run),
+                        report);
+}
+
+// Makes the result of a mesh: adds the points that were set aside, examines, trims, reports. The end of
+// every method.
+// \return INTERNAL_ERROR unless it is an oriented manifold, DEGENERATE if no triangle is left
+Problem
+useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request& request,
+         Result& result)
+{
+  Report& report = result.report;
+  TriangleMesh& mesh = draft.mesh;
+  std::optional<Points> all;
+  if (!given.stacked.of.empty ()) {
+    all = addStacked (mesh, given, geometry, draft.finish, request);
+    if (!report.is_view)
+      repairSplits (draft, given, *all, geometry, request);
+  }
+  const Points& points = all ? *all : given;
+  MeshExamination found =
+      draft.found && !all ? std::move (*draft.found) : examine (mesh, points, geometry, request);
+  if (report.is_view) // noise along the rays makes true surfaces cross themselves
+    reportLeftOut (points, found, geometry, draft.is_doubtful, request, report);
+  else
+    checkCrossing (mesh.triangles, points, request.run, found, std::move (draft.finish.crossing));
+  if (report.topology == Topology::DISC)
+    if (Problem problem = checkDisc (points, found, report.loop))
+      return problem;
+  if (mesh.triangles.empty ())
+    return {RunStatus::DEGENERATE,
+            "no three points make a triangle of a surface: they lie along lines or curves, or each "
+            "on its own; a surface needs points side by side"};
+  report.statistics.self_intersections_found =
+      std::max (draft.finish.pairs_found, found.crossing.size ());
+  Trimming trimming;
+  if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
+    trimming =
+        trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
+    std::vector<Index> unused = std::move (found.unused); // without points that trimming leaves
+                                                          // unused
+    found = examine (mesh, points, geometry, request);
+    if (!report.is_view)
+      checkCrossing (mesh.triangles, points, request.run, found);
+    found.unused = std::move (unused);
+    if (trimming.triangles > 0)
+      report.loop.clear ();
+  }
+  result.triangles = std::move (mesh.triangles);
+  mesh = {};
+  Problem problem =
+      reportMesh (points, result.triangles, found, draft.finish, trimming, request.options, report);
+  for (Triangle& triangle : result.triangles)
+    for (Index& p : triangle)
+      p = points.cloud_index[p];
+  return problem;
+}
+
+// TW 385, section 3: boundary points as one ordered loop.
+Boundary
+findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
+{
+  const BoundaryOptions& options = request.options.disc.boundary;
+  const Limits& limits = request.limits;
+  request.run.beginStage (Stage::BOUNDARY);
+  const bool is_given = !options.loop.empty ();
+  Boundary boundary =
+      is_given || options.method != BoundaryMethod::CONSENSUS
+          ? findBoundary (points, geometry, options, request.run, limits.loop)
+          : consensusLoop (points.workingPositions (), geometry, request.run, limits.surface);
+  checkBoundary (points, geometry.spacing, is_given, boundary, limits.loop);
+  return boundary;
+}
+
+} // namespace
+
+Problem
+reconstructDisc (const Points& points, LocalGeometry geometry, const Request& request,
+                 Result& result)
+{
+  const Options& options = request.options;
+  result.report.topology = Topology::DISC;
+  result.report.topology_reason = options.disc.as_published ? "the method of TW 385 is asked for"
+                                  : options.topology == Topology::DISC
+                                      ? "asked for"
+                                      : "its boundary loop is given";
+  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
+                        {options, starSettings (request), request.limits.disc,
+                         request.limits.surface.finish, facingHints (points, request)},
+                        request.run);
+  reportDisc (points, disc, result.report);
+  if (disc.problem)
+    return disc.problem;
+  return useMesh ({std::move (disc.mesh), std::move (disc.finish)}, points, std::move (geometry),
+                  request, result);
+}
+
+Problem
+reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
+                    Result& result)
+{
+  const Options& options = request.options;
+  const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
+                                 request.limits.surface, facingHints (points, request)};
+  Surface surface = makeSurface (points, geometry, settings, request.run);
+  result.report.topology = Topology::SURFACE;
+  reportLoops (points, surface, result.report);
+  return useMesh ({std::move (surface.mesh), std::move (surface.finish)}, points,
+                  std::move (geometry), request, result);
+}
+
+namespace {
+// The given viewpoint, or the origin of the sensor if the points are evenly spaced from there.
+std::optional<Viewpoint>
+knownViewpoint (const Points& points, const Request& request)
+{
+  const ViewOptions& options = request.options.view;
+  const bool is_given = options.use == ViewUse::GIVEN;
+  const Viewpoint viewpoint{
+      points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
+  const EvidenceLimits& evidence = request.limits.view.evidence;
+  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
+    return viewpoint;
+  if (isSensorKnown (request.sensor_origin) &&
+      mayBeSeenFrom (points.positions, viewpoint, evidence, request.run))
+    return Viewpoint{viewpoint.place, false, true};
+  return {};
+}
+
+// If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
+// that one. The given one is then likely to be wrong. First the sensor origin in the file is
+// tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
+// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
+// otherwise the time of a search.
+std::optional<Viewpoint>
+contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
+{
+  const RunContext& run = request.run;
+  const SearchLimits& search = request.limits.view.search;
+  const EvidenceLimits& evidence = request.limits.view.evidence;
+  const auto isSeen = [&] (const Viewpoint& viewpoint) {
+    return isSeenFrom (points, viewpoint, evidence, run);
+  };
+  if (isSeen (given))
+    return {};
+  const Viewpoint of_file{points.fromCloud (request.sensor_origin)};
+  if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
+    return of_file;
+  const LocalPlanes planes = findPlanes (points, {request.options.neighbors}, request);
+  const auto find = [&] (const std::vector<AreaSample>& samples, SearchReason reason) {
+    return findViewpoint (points, planes.neighbors, samples, reason, search, evidence, run);
+  };
+  const std::optional<Viewpoint> found =
+      find (takeAreaSamples (points, planes, starSettings (request), search.samples, run),
+            SearchReason::UNEVEN);
+  return found ? found
+               : find (takePatchSamples (points.positions, planes.neighbors, search.samples),
+                       SearchReason::NOISE);
+}
+
+// Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on
+// what bears the sensor, which are no part of the scene.
+std::size_t
+countContradictions (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
+                     const std::vector<Index>& unused, const EvidenceLimits& limits)
+{
+  std::vector<double> depths;
+  for (const Eigen::Vector3d& position : points.positions)
+    depths.push_back (rayTo (position, viewpoint).depth);
+  const double least = viewpoint.is_far ? -std::numeric_limits<double>::infinity ()
+                                        : limits.at_sensor * median (depths);
+  return static_cast<std::size_t> (std::count_if (unused.begin (), unused.end (), [&] (Index p) {
+    return surface.is_at_step[p] != 0 && rayTo (points.positions[p], viewpoint).depth >= least;
+  }));
+}
+
+} // namespace
+
+std::optional<Problem>
+reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
+                 Result& result)
+{
+  const Options& options = request.options;
+  const ViewLimits& limits = request.limits.view;
+  ViewSurface surface =
+      makeViewSurface (points, viewpoint, {options, limits, request.limits.surface},
+                       facingHints (points, request), request.run);
+  LocalGeometry geometry;
+  geometry.spacing = std::move (surface.spacing);
+  MeshExamination found = examine (surface.mesh, points, geometry, request);
+  const bool is_given = options.view.use == ViewUse::GIVEN;
+  const auto isMoreThan = [&points] (double share, std::size_t count) {
+    return static_cast<double> (count) > share * static_cast<double> (points.size ());
+  };
+  const double most_unused =
+      viewpoint.is_only_told ? limits.largest_unused_if_told : limits.largest_unused_share;
+  const bool is_doubtful = isMoreThan (most_unused, found.unused.size ());
+  if (!is_given && is_doubtful &&
+      (isMoreThan (limits.largest_unused_in_all, found.unused.size ()) ||
+       isMoreThan (most_unused, countContradictions (points, viewpoint, surface, found.unused,
+                                                     limits.evidence))))
+    return {};
+  if (surface.mesh.triangles.empty ())
+    return Problem{RunStatus::INVALID_OPTION,
+                   "no triangle is left of the view from the given viewpoint: the points hide each "
+                   "other, or lie on one line as seen from there; give the place of the sensor, or "
+                   "none"};
+  result.report.topology = Topology::SURFACE;
+  reportView (points, viewpoint, surface, result.report);
+  return useMesh ({std::move (surface.mesh), std::move (surface.finish), std::move (found),
+                   is_doubtful && is_given},
+                  points, std::move (geometry), request, result);
+}
+
+std::optional<Problem>
+reconstructKnownView (const Points& points, const Request& request, Result& result)
+{
+  const std::optional<Viewpoint> viewpoint = knownViewpoint (points, request);
+  if (!viewpoint)
+    return {};
+  std::optional<Viewpoint> other;
+  if (request.options.view.use == ViewUse::GIVEN)
+    other = contradictingViewpoint (points, *viewpoint, request);
+  std::optional<Problem> problem = reconstructView (points, *viewpoint, request, result);
+  if (problem && !*problem && other)
+    reportOtherViewpoint (points, *other, result.report);
+  return problem;
+}
+
+} // namespace pcl::floater
