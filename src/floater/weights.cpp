@@ -57,16 +57,11 @@ struct LocalStar
   }
 };
 
-// Equation (3) without cancellation: tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin. The sine
-// is an absolute value, since rounding may give it the wrong sign in sectors next to 0 or pi.
+// The sine is an absolute value, since rounding may give it the wrong sign in sectors next to 0 or pi.
 double
-halfTangent (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+halfTangentBetween (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
-  const double sine = std::abs (cross (a, b));
-  const double cosine = a.dot (b);
-  if (cosine >= 0.0)
-    return sine / (1.0 + cosine);
-  return 1.0 - cosine < LARGEST_TANGENT * sine ? (1.0 - cosine) / sine : LARGEST_TANGENT;
+  return halfTangent (std::abs (cross (a, b)), a.dot (b));
 }
 
 // Gives each of several neighbours in one direction the mean of their weights. Only their sum
@@ -77,7 +72,7 @@ shareInDirections (const LocalStar& star, double* weights)
 {
   const std::size_t count = star.size ();
   const auto same = [&star] (std::size_t i, std::size_t j) {
-    return halfTangent (star.directions[i], star.directions[j]) < SAME_DIRECTION;
+    return halfTangentBetween (star.directions[i], star.directions[j]) < SAME_DIRECTION;
   };
   std::size_t start = 0; // a neighbour that is the first in its direction
   while (start < count && same (start == 0 ? count - 1 : start - 1, start))
@@ -103,7 +98,7 @@ meanValue (const LocalStar& star, double* weights)
   bool shared_direction = false;
   for (std::size_t i = 0; i < (star.closed ? count : count - 1); ++i) {
     const std::size_t j = i + 1 == count ? 0 : i + 1;
-    const double tangent = halfTangent (star.directions[i], star.directions[j]);
+    const double tangent = halfTangentBetween (star.directions[i], star.directions[j]);
     shared_direction = shared_direction || tangent < SAME_DIRECTION;
     weights[i] += tangent;
     weights[j] += tangent;
@@ -200,6 +195,15 @@ weighStar (const LocalStar& star, Weighting weighting, double* weights)
 }
 
 } // namespace
+
+// tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin
+double
+halfTangent (double sine, double cosine)
+{
+  if (cosine >= 0.0)
+    return sine / (1.0 + cosine);
+  return 1.0 - cosine < LARGEST_TANGENT * sine ? (1.0 - cosine) / sine : LARGEST_TANGENT;
+}
 
 std::vector<double>
 computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)
