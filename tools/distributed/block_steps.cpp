@@ -114,11 +114,10 @@ outliersStep (const Job& job, FolderStore& store, const Plan& plan)
   const StepContext context (store, plan, job.line, job.join_threads);
   std::vector<Index> outliers;
   if (context.options.remove_outliers) {
-    const BlockRanges ranges (context.plan, context.plan.points);
     std::vector<Index> gross_outliers;
     Points points = readPoints (context.store, POINTS, context.plan, gross_outliers);
-    const std::vector<Index> all = pointsFrom (0, static_cast<Index> (ranges.points ()));
-    const CsrLists neighbors = StoredNeighbors (context, {}, ranges).nearest (all);
+    const CsrLists neighbors =
+        StoredCloud (context, {}).nearest (pointsFrom (0, static_cast<Index> (points.size ())));
     outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
     if (!outliers.empty ()) {
       removePoints (points, outliers);

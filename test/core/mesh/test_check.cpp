@@ -147,7 +147,7 @@ TEST (MeshCheck, NeighborsThatDoNotFitAreFoundAndTold)
     EXPECT_EQ (found.check.nonmanifold_vertices, vertices);
     EXPECT_NE (found.broken_at, NONE);
     Report report;
-    const Problem problem = reportCheck (points, found, {}, report);
+    const Problem problem = reportMesh (points, mesh.triangles, found, {}, {}, {}, report);
     EXPECT_EQ (problem.status, RunStatus::INTERNAL_ERROR);
     EXPECT_NE (problem.message.find ("not an oriented manifold"), std::string::npos);
     EXPECT_TRUE (report.check.done);
@@ -173,7 +173,8 @@ std::vector<std::string>
 warningsOf (const Mesh& mesh, const Options& options = {}, float spacing = 0.1F)
 {
   Report report;
-  EXPECT_FALSE (reportCheck (pointsAt (mesh.positions), check (mesh, spacing), options, report));
+  EXPECT_FALSE (reportMesh (pointsAt (mesh.positions), mesh.triangles, check (mesh, spacing), {},
+                            {}, options, report));
   describeFindings (report);
   return report.warnings;
 }
