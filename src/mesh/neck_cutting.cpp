@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -87,7 +88,7 @@ public:
       if (std::count (after.triangle_of.begin (), after.triangle_of.end (), NONE) > 0 ||
           rimEdges (after) != rim)
         continue;
-      if (const double cost = costOf (after); cost < least) {
+      if (const double cost = costOf (after, least); cost < least) {
         least = cost;
         best = {triangles_, std::move (after.triangles), cost / cost_before};
       }
@@ -202,7 +203,9 @@ private:
   // The angles between triangles, times the lengths of their edges; a crossing pair counts like a
   // fold along an edge. Planes of points are not asked: near a false neck, they are those of no
   // sheet.
-  double costOf (const TriangleMesh& mesh) const
+  // \param most that matters: pairs are not looked for beyond
+  double costOf (const TriangleMesh& mesh,
+                 double most = std::numeric_limits<double>::infinity ()) const
   {
     std::vector<Eigen::Vector3d> normals;
     normals.reserve (mesh.triangles.size ());
@@ -219,6 +222,8 @@ private:
           length += own;
           ++edges;
         }
+    if (bending >= most)
+      return bending;
     const auto pairs =
         static_cast<double> (findSelfIntersections (mesh.triangles, positions_, run_).size ());
     return bending + PI * pairs * length / static_cast<double> (edges);
