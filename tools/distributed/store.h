@@ -209,7 +209,7 @@ public:
                     const std::function<void (const TakeBytes&)>& emit) = 0;
 
   /// \param plan of which the arrays are a part
-  void put (const std::string& name, const NamedArrays& arrays, std::uint64_t plan);
+  void put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan);
 };
 
 /// The files are in a folder. They are visible when they are complete and on the disk. Others must
