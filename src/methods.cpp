@@ -54,6 +54,7 @@ extendNeighbors (CsrLists& neighbors, const std::vector<Index>& of)
     neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
   }
 }
+
 // Adds the points that were set aside to the mesh, unless the point that stands for them is not in it;
 // extends the geometry but for the neighbours, and what was made anew. Returns all points.
 Points

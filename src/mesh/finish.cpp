@@ -97,7 +97,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       finish.necks_cut = cutNecks (mesh, positions, geometry, settings.limits.necks, run);
     if (finish.necks_cut > 0)
       finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
-    if (finish.folds + finish.pairs_found + finish.remade.points () > 0) {
+    if (finish.folds + finish.pairs_found + finish.remade.points () + finish.necks_cut > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
       if (!finish.remade.is_noise &&
           repair (mesh, positions, geometry, Repair::BEFORE_REMAKING, settings.limits, finish, run)

@@ -17,18 +17,18 @@ struct NeckLimits
 {
   std::size_t longest_loop = 12; ///< edges of a loop that is tried. False handles of thinned scans
                                  ///< had loops of 3 to 9
-  double cost_left = 0.9; ///< share of the cost that a cut may leave. Between 80 pairs of spheres,
-                          ///< false necks left 0.42 to 0.83, but for two (0.91, 0.97); true ones of
-                          ///< thinned scans 0.906 or more
-  CostLimits cost;        ///< of triangles that fill an opening
+  double cost_left = 0.9; ///< share of the bending that a cut may leave. Cuts of the false necks
+      ///< between generated spheres left 0.42 to 0.83, but for two (0.91, 0.97),
+      ///< those of true ones in thinned scans 0.906 or more
+  CostLimits cost; ///< of triangles that fill an opening
   double area_cost = HoleFillingLimits{}.area_cost;
 };
 
 /// Cuts along short loops around necks (see findNeckLoops): takes out the triangles at the points of
 /// a loop, on one side of it or on both, fills the two openings, and inserts points that have no
-/// triangle left. The cheapest of these cuts is made if it bends the mesh around less; of cuts that
-/// overlap, the one that leaves the least share. A neck between sheets that only come close bends
-/// twice by a right angle; across a true one, the fillings would. A cut takes a handle away, or
+/// triangle left. The cheapest of these cuts is made if the mesh around is bent clearly less then; of
+/// cuts that overlap, the one that leaves the least share. A neck between sheets that only come close
+/// bends twice by a right angle; across a true one, the fillings would. A cut takes a handle away, or
 /// parts a component in two. O(n), plus about a millisecond for a loop.
 /// \param geometry normals oriented like the mesh (see orientNormals)
 /// \return number of necks that were cut

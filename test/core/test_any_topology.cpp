@@ -212,6 +212,19 @@ finger (double slenderness, std::size_t points, std::uint64_t seed)
   return generated ({SurfaceKind::FINGER, points, seed, 1.0, 0.0, slenderness});
 }
 
+// Two spheres, a fiftieth of a spacing from each other. Without cuts, a neck joins them.
+KnownSurface
+touchingSpheres (std::uint64_t seed)
+{
+  constexpr std::size_t POINTS = 1200, OTHERS = 900;
+  const auto radius = [] (std::size_t points) {
+    return std::sqrt (static_cast<double> (points) / (4.0 * PI));
+  };
+  return withComponent (sphere (POINTS, seed), sphere (OTHERS, seed + 100), 1.0,
+                        (radius (POINTS) + radius (OTHERS) + 0.02) *
+                            Eigen::Vector3d (1.0, 2.0, 2.0) / 3.0);
+}
+
 std::vector<Case>
 cases ()
 {
@@ -305,6 +318,8 @@ cases ()
   add ("parallel_2", [] { return parallelSheets (2.0, 1); });
   add ("parallel_3", [] { return parallelSheets (3.0, 3); });
   add ("components", [] { return components (1); });
+  for (const std::uint64_t seed : {2, 4, 8, 11})
+    add ("touching_" + std::to_string (seed), [=] { return touchingSpheres (seed); });
   add ("components_outliers", [] { return withOutliers (components (2), 10, 36.0, 3); });
   for (const std::uint64_t tenths : {1, 2, 3, 5}) {
     const double noise = 0.1 * static_cast<double> (tenths);
