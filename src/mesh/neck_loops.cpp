@@ -113,7 +113,8 @@ private:
       euler_ += is_corner_.add (p) ? 1 : 0;
   }
 
-  // The loops at which the triangles that were taken end. Caps beyond such loops are taken, too.
+  // The loops at which the triangles that were taken end. Caps beyond such loops are taken, too; one
+  // with a hole leaves the Euler characteristic of the others.
   void findSides ()
   {
     sides_.clear ();
@@ -125,7 +126,6 @@ private:
     std::sort (rim.begin (), rim.end ());
     while (!rim.empty ()) {
       std::vector<Rim> side;
-      has_hole_ = false;
       cap_.clear ();
       is_reached_.clear ();
       for (Rim e = rim.back ();; e = nextOnRim (e)) {
@@ -141,8 +141,6 @@ private:
           addToCap (t);
       if (cap_.size () > largest_cap_)
         sides_.push_back (std::move (side));
-      else if (has_hole_)
-        return;
       else
         std::for_each (cap_.begin (), cap_.end (), [this] (Index t) { take (t); });
     }
@@ -150,7 +148,6 @@ private:
 
   void addToCap (Index t)
   {
-    has_hole_ = has_hole_ || t == NONE;
     if (t != NONE && !is_taken_.has (t) && is_reached_.add (t))
       cap_.push_back (t);
   }
@@ -255,7 +252,6 @@ private:
   std::vector<std::vector<Rim>> sides_; // loops at which these end, not around caps
   std::vector<Edge> crossed_;           // on a way of triangles between two sides
   std::vector<Index> cap_, fan_, ring_; // scratch
-  bool has_hole_ = false;               // of the cap
 };
 
 // Points of bent edges.

@@ -307,5 +307,27 @@ TEST (LoopReport, TellsDoubtfulDecisionsAndWarnsOfHolesTooDeepToBeFilled)
                  "(12 local spacings) around point 91");
 }
 
+TEST (CheckReport, TheReportHasCloudIndicesAndTheLongestLoop)
+{
+  Mesh mesh = beside (sheet (3), annulus (30));
+  mesh.positions.emplace_back (0, 0, 1);
+  mesh.positions.emplace_back (0, 0, 2);
+  const MeshExamination found = check (mesh);
+  Report report;
+  report.outliers = {3 * 166 + 1};
+  ASSERT_FALSE (reportMesh (pointsAt (mesh.positions), mesh.triangles, found, {}, {}, {}, report));
+  EXPECT_EQ (report.unused, (std::vector<Index>{3 * 167 + 1}));
+  EXPECT_EQ (report.statistics.used_points, 166U);
+  ASSERT_EQ (report.loop.size (), 30U);
+  for (std::size_t i = 0; i < 30; ++i)
+    EXPECT_EQ (report.loop[i], 3 * found.loops.front ().points[i] + 1);
+  EXPECT_EQ (report.statistics.loop_points, 30U);
+  EXPECT_EQ (report.check.loops.size (), 3U);
+  // A loop that is there already is kept.
+  report.loop = {1, 2, 3};
+  ASSERT_FALSE (reportMesh (pointsAt (mesh.positions), mesh.triangles, found, {}, {}, {}, report));
+  EXPECT_EQ (report.loop, (std::vector<Index>{1, 2, 3}));
+}
+
 } // namespace
 } // namespace pcl::floater

@@ -36,6 +36,9 @@ TEST (NeckLoops, AreAsLongAsTheTubeIsWide)
 
 TEST (NeckLoops, GoAroundNoTipAndNoBoundary)
 {
+  Mesh tip = samples::sheet (14);
+  tip.positions[7 * 15 + 7].z () = 0.5;
+  EXPECT_EQ (shortestLoop (tip, 12), 0U);
   EXPECT_EQ (shortestLoop (samples::annulus (5), 12), 0U);
   EXPECT_EQ (shortestLoop (samples::tetrahedron (), 12), 0U);
   EXPECT_EQ (shortestLoop (samples::torus (30, 13), 12), 0U); // hardly bent
