@@ -87,9 +87,14 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
         return;
       remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
                    widest, finish.remade, settings.limits.remaking, run);
-      if (settings.limits.remaking.disturbance.closes_gaps && finish.remade.points () > 0 &&
-          fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
-                        settings.limits.remaking.disturbance.small_loop, run) > 0)
+      if (finish.remade.points () == 0)
+        return;
+      const std::size_t triangles = mesh.triangles.size ();
+      insertMissingPoints (mesh, geometry.neighbors, cost, true, run);
+      if (settings.limits.remaking.disturbance.closes_gaps)
+        fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
+                      settings.limits.remaking.disturbance.small_loop, run);
+      if (mesh.triangles.size () != triangles)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
     remake (WIDEST);

@@ -42,7 +42,7 @@ public:
 
   bool isManifold () const { return is_manifold_; }
 
-  /// Points inside that do not have a single fan, closed but at boundaries that stay.
+  /// Points inside that have triangles, but not a single fan, closed but at boundaries that stay.
   std::vector<Index> misfits (const RunContext& run) const
   {
     std::vector<Index> found;
@@ -53,9 +53,9 @@ public:
       const VertexStars stars (mesh_.triangles, ranges, r);
       for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < ranges.lastPoint (r); ++p) {
         const VertexStar star = stars.of (p);
-        if (!isInside (p))
+        if (!isInside (p) || star.size () == 0)
           continue;
-        bool fits = star.size () > 0 && order.set (star) && order.isOneFan ();
+        bool fits = order.set (star) && order.isOneFan ();
         for (std::size_t i = 0; i < star.size () && fits; ++i)
           fits = (order.before (i) != NONE || (stays (p) && stays (star[i].next))) &&
                  (order.after (i) != NONE || (stays (p) && stays (star[i].previous)));
@@ -101,20 +101,6 @@ public:
     return twice + (static_cast<long> (triangles) + open_edges) / 2;
   }
 
-  /// Components that have no triangle of the frame, if there is a frame.
-  std::ptrdiff_t islands () const
-  {
-    if (place_.frame.empty ())
-      return 0;
-    DisjointSets pieces = components ();
-    std::vector<std::uint8_t> is_island (place_.positions.size (), 0);
-    for (const Triangle& t : mesh_.triangles)
-      is_island[pieces.find (t[0])] = 1;
-    for (const Triangle& t : place_.frame)
-      is_island[pieces.find (t[0])] = 0;
-    return std::count (is_island.begin (), is_island.end (), 1);
-  }
-
   /// Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
   /// without a triangle.
   std::size_t faults (const RunContext& run) const
@@ -132,17 +118,6 @@ public:
   }
 
 private:
-  // Connected points; those of no triangle each by themselves.
-  DisjointSets components () const
-  {
-    DisjointSets pieces (place_.positions.size ());
-    for (const Triangle& t : mesh_.triangles) {
-      pieces.join (t[0], t[1]);
-      pieces.join (t[1], t[2]);
-    }
-    return pieces;
-  }
-
   bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
 
   const Place& place_;

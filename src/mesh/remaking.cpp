@@ -72,6 +72,7 @@ public:
       if (!made.is_right || hasLid (made, at.points))
         return std::nullopt;
       joinFans (at.place, made);
+      dropIslands (at.place, made);
       const PieceInPlace after (at.place, made.triangles, made.is_turned, run_);
       const std::vector<Index> misfits = after.misfits (run_);
       if (misfits.empty ()) {
@@ -114,7 +115,6 @@ private:
   bool isBetter (const PieceInPlace& after, const PieceInPlace& before) const
   {
     return after.isManifold () && after.twiceHandles () <= before.twiceHandles () &&
-           after.islands () <= before.islands () &&
            static_cast<double> (after.faults (run_)) <=
                limits_.faults_left * static_cast<double> (before.faults (run_));
   }
@@ -176,6 +176,27 @@ private:
       made.triangles.push_back ({p, q, r});
       add (made.triangles.back ());
     }
+  }
+
+  // Components without a triangle of the frame are no part of the surface, if there is a frame.
+  static void dropIslands (const Place& place, RemadePlace& made)
+  {
+    if (place.frame.empty ())
+      return;
+    DisjointSets pieces (place.positions.size ());
+    const auto join = [&pieces] (const Triangle& t) {
+      pieces.join (t[0], t[1]);
+      pieces.join (t[1], t[2]);
+    };
+    std::for_each (made.triangles.begin (), made.triangles.end (), join);
+    std::for_each (place.frame.begin (), place.frame.end (), join);
+    std::vector<std::uint8_t> is_held (place.positions.size (), 0);
+    for (const Triangle& t : place.frame)
+      is_held[pieces.find (t[0])] = 1;
+    made.triangles.erase (
+        std::remove_if (made.triangles.begin (), made.triangles.end (),
+                        [&] (const Triangle& t) { return is_held[pieces.find (t[0])] == 0; }),
+        made.triangles.end ());
   }
 
   double meanEdge (Index p) const

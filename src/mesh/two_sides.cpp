@@ -35,7 +35,7 @@ public:
   PlaceInSpace (const Place& place, const RunContext& run)
       : place_ (place), run_ (run), all_ (delaunayInSpace (place.positions)),
         sides_ (all_, place.is_free), flaws_ (place.positions.size (), NONE),
-        is_reached_ (all_.size ())
+        is_left_out_ (place.positions.size (), 0), is_reached_ (all_.size ())
   {
   }
 
@@ -58,14 +58,15 @@ public:
       }
     if (isNoise (made.flawed, free))
       return made;
-    mend ();
+    do
+      mend ();
+    while (leaveOut ());
     take (made);
     return made;
   }
 
 private:
   using Side = SidesOfSpace::Side;
-
   struct Facet
   {
     double overlap;
@@ -282,7 +283,9 @@ private:
         if (count[side] > 1 && (piece.size () < most[side] || piece.size () < 4))
           pieces->push_back (std::move (piece));
       }
-    return count[0] == 0 || count[1] == 0 ? ENCLOSED : count[0] + count[1] - 2;
+    if (count[0] > 0 && count[1] > 0)
+      return count[0] + count[1] - 2;
+    return is_left_out_[p] != 0 ? 0 : ENCLOSED;
   }
 
   // The same as long as no tetrahedron there is turned.
@@ -308,6 +311,46 @@ private:
     }
   }
 
+  // Points that could not be mended come on one side of the surface, so that they have no triangle:
+  // on the side that leaves fewest flaws at others.
+  // \return false if there is none
+  bool leaveOut ()
+  {
+    bool has_changed = false;
+    for (Index p = 0; p < place_.positions.size (); ++p) {
+      if (place_.is_free[p] == 0 || is_left_out_[p] != 0 || knownFlawsAt (p) == 0)
+        continue;
+      is_left_out_[p] = 1;
+      flaws_[p] = NONE;
+      std::array<std::vector<Index>, 2> moves; // the tetrahedra before, and those behind
+      for (const Index t : all_.around.row (p))
+        moves[is_behind_[t]].push_back (t);
+      const std::vector<Index>* best = nullptr;
+      std::size_t fewest = 0;
+      for (const std::vector<Index>& move : moves) {
+        if (std::any_of (move.begin (), move.end (), [this] (Index t) {
+              const auto& frame = is_frame_[t];
+              return all_.isInfinite (t) || std::count (frame.begin (), frame.end (), 0) < 4;
+            }))
+          continue;
+        std::size_t flaws = 0;
+        turn (move);
+        for (const Index q : cornersOf (move))
+          flaws += flawsAt (q);
+        turn (move);
+        if (best == nullptr || flaws < fewest) {
+          best = &move;
+          fewest = flaws;
+        }
+      }
+      if (best == nullptr)
+        continue;
+      turnForGood (*best);
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
   // Single tetrahedra and pieces; if none helps, two tetrahedra side by side.
   bool mendAt (Index p)
   {
@@ -328,22 +371,17 @@ private:
   bool makeBest (const std::vector<std::vector<Index>>& moves)
   {
     const std::vector<Index>* best = nullptr;
-    std::vector<Index> points, best_points;
     long best_gain = 0;
     double best_cost = 0.0;
     for (const std::vector<Index>& move : moves) {
       if (work_ >= most_work_)
         return false;
-      points.clear ();
       bool is_allowed = true;
       double cost = 0.0;
       for (const Index t : move) {
         int free_corners = 0;
         for (const Index q : all_.corners[t])
-          if (q != NONE) {
-            points.push_back (q);
-            free_corners += place_.is_free[q] != 0 ? 1 : 0;
-          }
+          free_corners += q != NONE && place_.is_free[q] != 0 ? 1 : 0;
         is_allowed = is_allowed && !all_.isInfinite (t) && free_corners >= 2;
         for (unsigned k = 0; k < 4; ++k)
           cost +=
@@ -351,7 +389,7 @@ private:
       }
       if (!is_allowed)
         continue;
-      sortUnique (points);
+      const std::vector<Index> points = cornersOf (move);
       long gain = 0;
       for (const Index q : points)
         gain += static_cast<long> (knownFlawsAt (q));
@@ -362,17 +400,32 @@ private:
       turn (move);
       if (gain > best_gain || (gain == best_gain && best != nullptr && cost < best_cost)) {
         best = &move;
-        best_points = points;
         best_gain = gain;
         best_cost = cost;
       }
     }
     if (best == nullptr)
       return false;
-    turn (*best);
-    for (const Index q : best_points)
-      flaws_[q] = NONE;
+    turnForGood (*best);
     return true;
+  }
+
+  std::vector<Index> cornersOf (const std::vector<Index>& tetrahedra) const
+  {
+    std::vector<Index> points;
+    for (const Index t : tetrahedra)
+      for (const Index p : all_.corners[t])
+        if (p != NONE)
+          points.push_back (p);
+    sortUnique (points);
+    return points;
+  }
+
+  void turnForGood (const std::vector<Index>& tetrahedra)
+  {
+    turn (tetrahedra);
+    for (const Index p : cornersOf (tetrahedra))
+      flaws_[p] = NONE;
   }
 
   void turn (const std::vector<Index>& tetrahedra)
@@ -410,10 +463,11 @@ private:
   std::vector<Index> front_of_patch_;                 // a tetrahedron, NONE if there is none
   std::vector<std::uint8_t> is_behind_;               // of each tetrahedron
   std::vector<std::uint8_t> is_turned_;
-  std::vector<Index> flaws_;             // of each point: flawsAt (), NONE if not known
-  std::vector<Index> piece_;             // scratch of flawsAt ()
-  std::vector<std::uint8_t> is_reached_; // of each tetrahedron: the same
-  std::size_t work_ = 0, most_work_ = 0; // tetrahedra that flawsAt () has looked at, and may
+  std::vector<Index> flaws_;              // of each point: flawsAt (), NONE if not known
+  std::vector<std::uint8_t> is_left_out_; // of each point: need not have two sides
+  std::vector<Index> piece_;              // scratch of flawsAt ()
+  std::vector<std::uint8_t> is_reached_;  // of each tetrahedron: the same
+  std::size_t work_ = 0, most_work_ = 0;  // tetrahedra that flawsAt () has looked at, and may
 };
 
 } // namespace

@@ -45,8 +45,9 @@ TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
 }
 
 // Noise of half a spacing leaves pieces of a side around some points of every second sphere. Single
-// tetrahedra mend 10 of 40 spheres, and two side by side five more.
-TEST (TwoSides, PiecesAroundAPointAreMended)
+// tetrahedra mend 10 of 40 spheres, and two side by side five more. Points that cannot be mended are
+// left out.
+TEST (TwoSides, PiecesAroundAPointAreMendedOrThePointIsLeftOut)
 {
   std::size_t mended = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -55,7 +56,12 @@ TEST (TwoSides, PiecesAroundAPointAreMended)
     for (Eigen::Vector3d& p : positions)
       p *= 1.0 + 0.2 * (static_cast<double> (random ()) / 4294967296.0 - 0.5);
     const RemadePlace made = remakePlace (placeOf (positions), 1);
-    mended += made.flawed > 0 && made.is_right ? 1 : 0;
+    const samples::Topology topology = samples::topologyOf (made.triangles);
+    EXPECT_TRUE (made.is_right);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.loops.size (), 0U);
+    EXPECT_GE (topology.vertices, 296U);
+    mended += made.flawed > 0 && topology.vertices == 300 ? 1 : 0;
   }
   EXPECT_GE (mended, 13U);
 }
@@ -183,6 +189,26 @@ TEST (Remaking, BringsPointsBack)
   EXPECT_EQ (topology.euler, 4);
   EXPECT_EQ (topology.loops.size (), 0U);
   EXPECT_NE (spheres.mesh.triangle_of[7], NONE);
+}
+
+// Four points under the surface are a body of their own, which is no part of it.
+TEST (Remaking, LeavesOutIslands)
+{
+  Spheres spheres (3.0);
+  samples::exchange (spheres.mesh, 100, 121);
+  const Eigen::Vector3d below = 0.75 * spheres.positions[100];
+  spheres.positions.push_back (below);
+  for (int k = 0; k < 3; ++k)
+    spheres.positions.push_back (below + 0.05 * Eigen::Vector3d::Unit (k));
+  ASSERT_TRUE (spheres.mesh.connect (spheres.positions.size (), 1));
+  spheres.neighbors = neighborsOf (spheres.positions);
+  spheres.spacing.resize (spheres.positions.size (), spheres.spacing[0]);
+  EXPECT_GT (spheres.remake ().points (), 0U);
+  EXPECT_TRUE (findSelfIntersections (spheres.mesh.triangles, spheres.positions, 1).empty ());
+  const samples::Topology topology = samples::topologyOf (spheres.mesh.triangles);
+  EXPECT_EQ (topology.vertices, 800U);
+  EXPECT_EQ (topology.components, 2U);
+  EXPECT_EQ (topology.euler, 4);
 }
 
 // A window has one sheet around it and stays; a loop of five points is none.
