@@ -351,20 +351,13 @@ private:
     return has_changed;
   }
 
-  // Single tetrahedra and pieces; if none helps, two tetrahedra side by side.
+  // Tries pieces, and single tetrahedra.
   bool mendAt (Index p)
   {
     std::vector<std::vector<Index>> moves;
     flawsAt (p, &moves);
-    const Row around = all_.around.row (p);
-    for (const Index t : around)
+    for (const Index t : all_.around.row (p))
       moves.push_back ({t});
-    if (makeBest (moves))
-      return true;
-    moves.clear ();
-    for (const Index t : around)
-      for (const Index u : all_.neighbors[t])
-        moves.push_back ({t, u});
     return makeBest (moves);
   }
 

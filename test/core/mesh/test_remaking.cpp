@@ -45,8 +45,7 @@ TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
 }
 
 // Noise of half a spacing leaves pieces of a side around some points of every second sphere. Single
-// tetrahedra mend 10 of 40 spheres, and two side by side five more. Points that cannot be mended are
-// left out.
+// tetrahedra mend ten of 40 spheres. Points that cannot be mended are left out.
 TEST (TwoSides, PiecesAroundAPointAreMendedOrThePointIsLeftOut)
 {
   std::size_t mended = 0;
@@ -60,10 +59,10 @@ TEST (TwoSides, PiecesAroundAPointAreMendedOrThePointIsLeftOut)
     EXPECT_TRUE (made.is_right);
     EXPECT_TRUE (topology.manifold);
     EXPECT_EQ (topology.loops.size (), 0U);
-    EXPECT_GE (topology.vertices, 296U);
+    EXPECT_GE (topology.vertices, 294U);
     mended += made.flawed > 0 && topology.vertices == 300 ? 1 : 0;
   }
-  EXPECT_GE (mended, 13U);
+  EXPECT_GE (mended, 9U);
 }
 
 CsrLists
