@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 // Compiled a second time for processors with vectors of 8 floats, which are chosen at run time. The
@@ -265,12 +266,18 @@ findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<
     of_rays[k] = spreadOf (rays.nearest);
     of_rows[k] = with_rows ? spreadOf (rays.across) : 0.0;
   });
-  double rays = 0.0, rows = 0.0;
-  for (std::size_t k = 0; k < patches.size (); ++k) {
-    rays += of_rays[k] / static_cast<double> (patches.size ());
-    rows += of_rows[k] / static_cast<double> (patches.size ());
-  }
-  return rays + rows;
+  const auto mean = [] (const auto& first, const auto& last) {
+    return std::accumulate (first, last, 0.0) / static_cast<double> (last - first);
+  };
+  const double rays = mean (of_rays.begin (), of_rays.end ());
+  if (!with_rows)
+    return rays;
+  // Where the meridians of a scanner meet, patches have no rows: up to a quarter of them.
+  const std::size_t without = viewpoint.is_far ? 0 : patches.size () / 4;
+  const auto last = of_rows.end () - static_cast<std::ptrdiff_t> (without);
+  if (without > 0)
+    std::nth_element (of_rows.begin (), last, of_rows.end ());
+  return rays + mean (of_rows.begin (), last);
 }
 
 bool

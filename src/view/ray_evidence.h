@@ -118,8 +118,9 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const EvidenceLimits& limits, const RunContext& run);
 
 /// RayEvidence::ray_spread, to which `with_rows` adds the spread of the distances to the nearest ray
-/// across the direction of the nearest: to the next row of a scanner. Towards the viewpoint it falls
-/// all the way, while the share of near rays first rises where outlines begin to overlap. Same cost.
+/// across the direction of the nearest, to the next row of a scanner: its mean, for a place over
+/// the three quarters of the patches with the least. Towards the viewpoint it falls all the way, while the
+/// share of near rays first rises where outlines begin to overlap. Same cost.
 double
 findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
                const Viewpoint& viewpoint, bool with_rows, const RunContext& run);

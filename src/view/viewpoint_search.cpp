@@ -263,17 +263,25 @@ private:
            evidence.nearShare () > excess.near_share * evidence_.near_share;
   }
 
-  // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead for other
-  // rasters.
+  // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead from far off,
+  // where single rays do not. In a narrow valley, the search ends early: it begins again from there.
   std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
-    const std::optional<Viewpoint> found = refineBy (start, step, true);
-    if (found && isSeenFromThere (evidenceAt (*found), evidence_))
-      return found;
-    const std::optional<Viewpoint> other = refineBy (start, step, false);
-    if (!found || !other)
-      return found ? found : other;
-    return evidenceAt (*found).ray_spread <= evidenceAt (*other).ray_spread ? found : other;
+    constexpr double CLOSER = 0.16; // the step after two rounds
+    std::optional<RatedViewpoint> best;
+    takeBetter (refineBy (start, step, true), best);
+    if (!best || !isSeenFrom (best->viewpoint))
+      takeBetter (refineBy (start, step, false), best);
+    for (double cost = std::numeric_limits<double>::infinity (); best && best->cost < cost;) {
+      cost = 0.9 * best->cost;
+      takeBetter (refineBy (best->viewpoint, CLOSER * step, true), best);
+    }
+    return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
+  }
+
+  bool isSeenFrom (const Viewpoint& viewpoint) const
+  {
+    return isSeenFromThere (evidenceAt (viewpoint), evidence_);
   }
 
   RayEvidence evidenceAt (const Viewpoint& viewpoint) const
@@ -315,7 +323,7 @@ private:
           return {};
       }
     }
-    if (isSeenFromThere (evidenceAt (viewpoint), evidence_) || explains (viewpoint))
+    if (isSeenFrom (viewpoint) || explains (viewpoint))
       return viewpoint;
     return {};
   }
