@@ -89,12 +89,13 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                    widest, finish.remade, settings.limits.remaking, run);
       if (finish.remade.points () == 0)
         return;
-      const std::size_t triangles = mesh.triangles.size ();
-      insertMissingPoints (mesh, geometry.neighbors, cost, true, run);
+      std::size_t changes =
+          insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
       if (settings.limits.remaking.disturbance.closes_gaps)
-        fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
-                      settings.limits.remaking.disturbance.small_loop, run);
-      if (mesh.triangles.size () != triangles)
+        changes +=
+            fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
+                          settings.limits.remaking.disturbance.small_loop, run);
+      if (changes > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
     remake (WIDEST);

@@ -101,7 +101,7 @@ public:
     return twice + (static_cast<long> (triangles) + open_edges) / 2;
   }
 
-  /// Triangles that cross, folds, open edges that are not of a boundary that stays, and free points
+  /// Triangles that cross, folds, open edges that are not of a boundary that stays, and points inside
   /// without a triangle.
   std::size_t faults (const RunContext& run) const
   {
@@ -113,7 +113,7 @@ public:
           (place_.is_boundary[from] == 0 || place_.is_boundary[to] == 0))
         ++count;
     for (std::size_t p = 0; p < place_.positions.size (); ++p)
-      count += place_.is_free[p] != 0 && mesh_.triangle_of[p] == NONE ? 1 : 0;
+      count += isInside (p) && mesh_.triangle_of[p] == NONE ? 1 : 0;
     return count;
   }
 

@@ -37,12 +37,12 @@ struct RemadeZones
 /// came out wrong again, narrower by a ring each time. At first, loops that are gaps in part are
 /// gaps all along. A zone grows by points at which its new triangles do not fit to those around;
 /// where these touch at a boundary, one more triangle joins them. A zone stays as it was if its new
-/// triangles fit nowhere, have a handle more, a lid on an opening, or not clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each
-/// other; also if it was tried in vain before, within a tenth as large, or if it is large and some
-/// places in it are noise (see isNoise). Components may come out with either side as the front. O(n),
-/// plus some 60 microseconds for a point of a zone; zones on all threads.
-/// Points of components by themselves, and those at which two sides could not be told, have no
-/// triangle then.
+/// triangles fit nowhere, have a handle more, a lid on an opening, or not clearly fewer faults (see
+/// PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it was tried
+/// in vain before, within a tenth as large, or if it is large and some places in it are noise (see
+/// isNoise). Components may come out with either side as the front. Points of new components by
+/// themselves, and those whose two sides cannot be told, are left without a triangle. O(n), plus some
+/// 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)

@@ -267,13 +267,14 @@ private:
   // where single rays do not. In a narrow valley, the search ends early: it begins again from there.
   std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
-    constexpr double CLOSER = 0.16; // the step after two rounds
+    constexpr double CLOSER = 0.16, // the step after two rounds
+        CLEARLY = 0.9;              // by hand
     std::optional<RatedViewpoint> best;
     takeBetter (refineBy (start, step, true), best);
     if (!best || !isSeenFrom (best->viewpoint))
       takeBetter (refineBy (start, step, false), best);
     for (double cost = std::numeric_limits<double>::infinity (); best && best->cost < cost;) {
-      cost = 0.9 * best->cost;
+      cost = CLEARLY * best->cost;
       takeBetter (refineBy (best->viewpoint, CLOSER * step, true), best);
     }
     return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;

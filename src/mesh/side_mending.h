@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mends the border between two sides of space where it is no manifold.
+#pragma once
+
+#include "core/order_statistics.h"
+#include "core/tetrahedra.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace pcl::floater {
+/// Moves tetrahedra to the other side where a free point does not have one piece of either side
+/// around it. What it is given must outlive it.
+class SideMending
+{
+public:
+  /// \param is_free   of each point
+  /// \param overlap   across each facet of each tetrahedron, see remakePlace ()
+  /// \param is_frame  of each facet: it stays between two sides
+  /// \param is_behind of each tetrahedron: its side, which changes
+  SideMending (const Tetrahedra& all, const std::vector<std::uint8_t>& is_free,
+               const std::vector<std::array<double, 4>>& overlap,
+               const std::vector<std::array<std::uint8_t, 4>>& is_frame,
+               std::vector<std::uint8_t>& is_behind)
+      : all_ (all), is_free_ (is_free), overlap_ (overlap), is_frame_ (is_frame),
+        is_behind_ (is_behind), flaws_ (is_free.size (), NONE), is_left_out_ (is_free.size (), 0),
+        is_reached_ (all.size ())
+  {
+  }
+
+  /// Number of free points that are not mended.
+  std::size_t flawed ()
+  {
+    std::size_t count = 0;
+    for (Index p = 0; p < is_free_.size (); ++p)
+      count += is_free_[p] != 0 && knownFlawsAt (p) > 0 ? 1 : 0;
+    return count;
+  }
+
+  /// Moves single tetrahedra, or pieces around a point: those that cure most, of equal ones those
+  /// that give the surface the facets of least overlap. Points that this does not mend come on one
+  /// side altogether, and the others are mended again. It ends early where points are on many
+  /// tetrahedra.
+  void mend ()
+  {
+    most_work_ = work_ + std::max (LEAST_WORK, WORK * is_free_.size ());
+    do
+      mendAll ();
+    while (leaveOut ());
+  }
+
+private:
+  static constexpr int ROUNDS = 50; // ends it where each change causes another one
+  // Tetrahedra around points that may be looked at, for each point: at some 20 nanoseconds. A point
+  // on many tetrahedra would take the cube of their number.
+  static constexpr std::size_t WORK = 2000, LEAST_WORK = 2'000'000;
+
+  // Pieces of either side around a point, beyond one each; many if there is one side only.
+  // \param pieces if not nullptr: the tetrahedra of each piece, but for the largest of each side
+  std::size_t flawsAt (Index p, std::vector<std::vector<Index>>* pieces = nullptr)
+  {
+    constexpr std::size_t ENCLOSED = 100;
+    const Row around = all_.around.row (p);
+    work_ += around.size ();
+    for (const Index t : around)
+      is_reached_[t] = 0;
+    std::array<std::size_t, 2> count{}, most{};
+    std::vector<std::vector<Index>> found;
+    for (const Index start : around) {
+      if (is_reached_[start]++ != 0)
+        continue;
+      const std::uint8_t side = is_behind_[start];
+      piece_.assign (1, start);
+      for (std::size_t i = 0; i < piece_.size (); ++i)
+        for (unsigned k = 0; k < 4; ++k) {
+          const Index t = piece_[i], other = all_.neighbors[t][k];
+          if (all_.corners[t][k] != p && is_behind_[other] == side && is_reached_[other]++ == 0)
+            piece_.push_back (other);
+        }
+      ++count[side];
+      most[side] = std::max (most[side], piece_.size ());
+      if (pieces != nullptr)
+        found.push_back (piece_);
+    }
+    if (pieces != nullptr)
+      for (std::vector<Index>& piece : found) {
+        const std::uint8_t side = is_behind_[piece.front ()];
+        if (count[side] > 1 && (piece.size () < most[side] || piece.size () < 4))
+          pieces->push_back (std::move (piece));
+      }
+    if (count[0] > 0 && count[1] > 0)
+      return count[0] + count[1] - 2;
+    return is_left_out_[p] != 0 ? 0 : ENCLOSED;
+  }
+
+  // The same as long as no tetrahedron there is turned.
+  std::size_t knownFlawsAt (Index p)
+  {
+    if (flaws_[p] == NONE)
+      flaws_[p] = static_cast<Index> (flawsAt (p));
+    return flaws_[p];
+  }
+
+  void mendAll ()
+  {
+    bool has_changed = true;
+    for (int round = 0; round < ROUNDS && has_changed; ++round) {
+      has_changed = false;
+      for (Index p = 0; p < is_free_.size () && work_ < most_work_; ++p)
+        if (is_free_[p] != 0 && knownFlawsAt (p) > 0)
+          has_changed = mendAt (p) || has_changed;
+    }
+  }
+
+  // Points that could not be mended come on one side, so that they have no triangle: on the side that
+  // leaves fewest flaws at others.
+  // \return whether there are any
+  bool leaveOut ()
+  {
+    bool has_changed = false;
+    for (Index p = 0; p < is_free_.size () && work_ < most_work_; ++p) {
+      if (is_free_[p] == 0 || is_left_out_[p] != 0 || knownFlawsAt (p) == 0)
+        continue;
+      is_left_out_[p] = 1;
+      flaws_[p] = NONE;
+      std::array<std::vector<Index>, 2> moves; // the tetrahedra before, and those behind
+      for (const Index t : all_.around.row (p))
+        moves[is_behind_[t]].push_back (t);
+      const std::vector<Index>* best = nullptr;
+      std::size_t fewest = 0;
+      for (const std::vector<Index>& move : moves) {
+        if (std::any_of (move.begin (), move.end (), [this] (Index t) {
+              const auto& frame = is_frame_[t];
+              return all_.isInfinite (t) || std::count (frame.begin (), frame.end (), 0) < 4;
+            }))
+          continue;
+        std::size_t flaws = 0;
+        turn (move);
+        for (const Index q : cornersOf (move))
+          flaws += flawsAt (q);
+        turn (move);
+        if (best == nullptr || flaws < fewest) {
+          best = &move;
+          fewest = flaws;
+        }
+      }
+      if (best == nullptr)
+        continue;
+      turnForGood (*best);
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
+  // Tries pieces, and single tetrahedra.
+  bool mendAt (Index p)
+  {
+    std::vector<std::vector<Index>> moves;
+    flawsAt (p, &moves);
+    for (const Index t : all_.around.row (p))
+      moves.push_back ({t});
+    return makeBest (moves);
+  }
+
+  bool makeBest (const std::vector<std::vector<Index>>& moves)
+  {
+    const std::vector<Index>* best = nullptr;
+    long best_gain = 0;
+    double best_cost = 0.0;
+    for (const std::vector<Index>& move : moves) {
+      if (work_ >= most_work_)
+        return false;
+      bool is_allowed = true;
+      double cost = 0.0;
+      for (const Index t : move) {
+        int free_corners = 0;
+        for (const Index q : all_.corners[t])
+          free_corners += q != NONE && is_free_[q] != 0 ? 1 : 0;
+        is_allowed = is_allowed && !all_.isInfinite (t) && free_corners >= 2;
+        for (unsigned k = 0; k < 4; ++k)
+          cost +=
+              is_behind_[all_.neighbors[t][k]] == is_behind_[t] ? overlap_[t][k] : -overlap_[t][k];
+      }
+      if (!is_allowed)
+        continue;
+      const std::vector<Index> points = cornersOf (move);
+      long gain = 0;
+      for (const Index q : points)
+        gain += static_cast<long> (knownFlawsAt (q));
+      turn (move);
+      for (const Index q : points)
+        if (gain >= best_gain)
+          gain -= static_cast<long> (flawsAt (q));
+      turn (move);
+      if (gain > best_gain || (gain == best_gain && best != nullptr && cost < best_cost)) {
+        best = &move;
+        best_gain = gain;
+        best_cost = cost;
+      }
+    }
+    if (best == nullptr)
+      return false;
+    turnForGood (*best);
+    return true;
+  }
+
+  std::vector<Index> cornersOf (const std::vector<Index>& tetrahedra) const
+  {
+    std::vector<Index> points;
+    for (const Index t : tetrahedra)
+      for (const Index p : all_.corners[t])
+        if (p != NONE)
+          points.push_back (p);
+    sortUnique (points);
+    return points;
+  }
+
+  void turnForGood (const std::vector<Index>& tetrahedra)
+  {
+    turn (tetrahedra);
+    for (const Index p : cornersOf (tetrahedra))
+      flaws_[p] = NONE;
+  }
+
+  void turn (const std::vector<Index>& tetrahedra)
+  {
+    for (const Index t : tetrahedra)
+      is_behind_[t] ^= 1U;
+  }
+
+  const Tetrahedra& all_;
+  const std::vector<std::uint8_t>& is_free_;
+  const std::vector<std::array<double, 4>>& overlap_;
+  const std::vector<std::array<std::uint8_t, 4>>& is_frame_;
+  std::vector<std::uint8_t>& is_behind_;
+  std::vector<Index> flaws_;              // of each point: flawsAt (), NONE if not known
+  std::vector<std::uint8_t> is_left_out_; // of each point: need not have two sides
+  std::vector<Index> piece_;              // scratch of flawsAt ()
+  std::vector<std::uint8_t> is_reached_;  // of each tetrahedron: the same
+  std::size_t work_ = 0, most_work_ = 0;  // tetrahedra that flawsAt () has looked at, and may
+};
+
+} // namespace pcl::floater
