@@ -261,15 +261,12 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
     evidence.point_spread = spreadOf (between_points);
   });
   RayEvidence evidence;
-  std::vector<double> spreads;
-  spreads.reserve (found.size ());
   for (const RayEvidence& patch : found) {
     evidence.judged += patch.judged;
     evidence.near += patch.near;
+    evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
     evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
-    spreads.push_back (patch.ray_spread);
   }
-  evidence.ray_spread = meanOver (spreads, viewpoint);
   return evidence;
 }
 

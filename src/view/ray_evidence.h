@@ -96,8 +96,7 @@ struct RayEvidence
   std::size_t judged = 0;    ///< number of rays
   std::size_t near = 0;      ///< those that are near another one
   double ray_spread = 0.0;   ///< logarithm of the ratio of large to small distances between
-                             ///< neighbouring rays (their 90 and 10 % quantiles); mean of patches,
-                             ///< of rays from a place without the quarter with the largest
+                             ///< neighbouring rays (their 90 and 10 % quantiles); mean of patches
   double point_spread = 0.0; ///< spread of the distances in space between their points
 
   double nearShare () const
@@ -118,9 +117,11 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits, const RunContext& run);
 
-/// RayEvidence::ray_spread, to which `with_rows` adds the spread of the distances to the nearest ray
-/// across the direction of the nearest: to the next row of a scanner. Towards the viewpoint it falls
-/// all the way, while the share of near rays first rises where outlines begin to overlap. Same cost.
+/// What a search lowers: RayEvidence::ray_spread, to which `with_rows` adds the spread of the distances
+/// to the nearest ray across the direction of the nearest, to the next row of a scanner. For rays from
+/// a place, the means of both leave out the quarter of the patches with the largest. Towards the
+/// viewpoint it falls all the way, while the share of near rays first rises where outlines begin to
+/// overlap. Same cost.
 double
 findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
                const Viewpoint& viewpoint, bool with_rows, const RunContext& run);

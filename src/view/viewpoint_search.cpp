@@ -257,9 +257,12 @@ private:
     return refine (viewpoint);
   }
 
-  bool isHopeless (const RayEvidence& evidence, const EvidenceExcess& excess) const
+  bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                   const EvidenceLimits& limits, const EvidenceExcess& excess) const
   {
-    return evidence.ray_spread > excess.regularity * evidence_.regularity * evidence.point_spread ||
+    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
+    return findRaySpread (positions_, patches, viewpoint, false, run_) >
+               excess.regularity * evidence_.regularity * evidence.point_spread ||
            evidence.nearShare () > excess.near_share * evidence_.near_share;
   }
 
@@ -317,8 +320,7 @@ private:
       const EvidenceExcess& excess = round >= EARLY     ? limits_.late
                                      : viewpoint.is_far ? limits_.early_from_far
                                                         : limits_.early;
-      if (!is_explained &&
-          isHopeless (findRayEvidence (positions_, patches, viewpoint, limits, run_), excess)) {
+      if (!is_explained && isHopeless (patches, viewpoint, limits, excess)) {
         is_explained = explains (viewpoint);
         if (!is_explained)
           return {};
