@@ -14,6 +14,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <tuple>
 #include <vector>
 
 namespace pcl::floater {
@@ -127,14 +128,16 @@ parallelRanges (const RunContext& run, std::size_t count, Body&& body)
   });
 }
 
-/// Calls body (p) for all points p below `count`, in such ranges.
-template <typename Body>
+/// Calls body (p, scratch...) for all points p below `count`, in such ranges, each of which has scratch of
+/// its own.
+template <typename... Scratch, typename Body>
 void
 parallelPoints (const RunContext& run, std::size_t count, Body&& body)
 {
   parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
+    std::tuple<Scratch...> scratch;
     for (auto p = static_cast<Index> (first); p < last; ++p)
-      body (p);
+      std::apply ([&] (auto&... one) { body (p, one...); }, scratch);
   });
 }
 

@@ -189,14 +189,6 @@ layOnOwnShape (const Outline& outline, const std::vector<double>& chords)
   return {};
 }
 
-double
-stepLength (double distance, LoopSpacing spacing)
-{
-  if (spacing == LoopSpacing::UNIFORM)
-    return 1.0;
-  return spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (distance) : distance;
-}
-
 } // namespace
 
 std::vector<Eigen::Vector2d>
@@ -205,10 +197,12 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
 {
   const std::size_t count = loop.size ();
   std::vector<double> chords (count);
-  for (std::size_t i = 0; i < count; ++i)
-    chords[i] =
-        stepLength ((positions[loop[i + 1 == count ? 0 : i + 1]] - positions[loop[i]]).norm (),
-                    options.loop_spacing);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double step = (positions[loop[i + 1 == count ? 0 : i + 1]] - positions[loop[i]]).norm ();
+    chords[i] = options.loop_spacing == LoopSpacing::UNIFORM       ? 1.0
+                : options.loop_spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (step)
+                                                                   : step;
+  }
   if (options.curve == Domain::OWN_SHAPE) {
     Outline uv = layOnOwnShape (project (positions, loop), chords);
     if (!uv.empty ())

@@ -209,19 +209,15 @@ std::vector<double>
 computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)
 {
   std::vector<double> weights (stars.neighbors.ids.size ());
-  parallelRanges (run, stars.neighbors.rows (), [&] (std::size_t begin, std::size_t end) {
-    LocalStar star;
-    for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t first = stars.neighbors.offsets[p];
-      const std::size_t count = stars.neighbors.offsets[p + 1] - first;
-      if (count == 0)
-        continue;
-      double* row = weights.data () + first;
-      if (star.assign (stars.offsets_in_plane.data () + first, count, stars.open[p] == 0))
-        weighStar (star, weighting, row);
-      else
-        std::fill (row, row + count, 1.0 / static_cast<double> (count));
-    }
+  parallelPoints<LocalStar> (run, stars.neighbors.rows (), [&] (Index p, LocalStar& star) {
+    const std::size_t first = stars.neighbors.offsets[p], count = stars.neighbors.row (p).size ();
+    if (count == 0)
+      return;
+    double* row = weights.data () + first;
+    if (star.assign (stars.offsets_in_plane.data () + first, count, stars.open[p] == 0))
+      weighStar (star, weighting, row);
+    else
+      std::fill (row, row + count, 1.0 / static_cast<double> (count));
   });
   return weights;
 }

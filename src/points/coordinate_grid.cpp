@@ -43,16 +43,13 @@ floatStep (double size)
 // Points at equal distances along the curve, which do not depend on the order of the cloud.
 // \param one_of takes one in this many
 std::vector<double>
-sortedCoordinates (const Points& points, int axis, std::size_t one_of, const RunContext& run)
+sortedCoordinates (const Points& points, int axis, std::size_t one_of)
 {
   const std::size_t stride = one_of * ((points.size () + SAMPLED - 1) / SAMPLED);
   std::vector<double> values;
   values.reserve (points.size () / stride + 1);
-  ProgressLoop progress (run); // each of them may bring pages into memory
-  for (std::size_t p = 0; p < points.size (); p += stride) {
-    progress.next ();
+  for (std::size_t p = 0; p < points.size (); p += stride)
     values.push_back (points.ownPositions ()[p][axis]);
-  }
   sortUnique (values);
   return values;
 }
@@ -67,9 +64,9 @@ smallestStep (const std::vector<double>& values)
 }
 
 AxisGrid
-lookAlong (const Points& points, int axis, const RunContext& run)
+lookAlong (const Points& points, int axis)
 {
-  const std::vector<double> values = sortedCoordinates (points, axis, 1, run);
+  const std::vector<double> values = sortedCoordinates (points, axis, 1);
   AxisGrid grid;
   if (values.size () < 2)
     return grid;
@@ -121,13 +118,12 @@ findCoordinateGrid (const Points& points, const std::vector<float>& spacing, con
   // If some points have a smaller step along every axis, no grid is coarse.
   bool may_be_coarse = false;
   for (int axis = 0; axis < 3 && !may_be_coarse; ++axis)
-    may_be_coarse =
-        smallestStep (sortedCoordinates (points, axis, FIRST_OF, run)) >= COARSE * usual;
+    may_be_coarse = smallestStep (sortedCoordinates (points, axis, FIRST_OF)) >= COARSE * usual;
   if (!may_be_coarse)
     return found;
   std::array<AxisGrid, 3> grids;
   parallelTasks (run, grids.size (), [&] (std::size_t axis) {
-    grids[axis] = lookAlong (points, static_cast<int> (axis), run);
+    grids[axis] = lookAlong (points, static_cast<int> (axis));
   });
   const bool is_alike_along_all =
       std::all_of (grids.begin (), grids.end (), [&grids] (const AxisGrid& grid) {

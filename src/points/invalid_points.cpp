@@ -15,56 +15,6 @@ namespace pcl::floater {
 namespace {
 using PositionList = std::vector<Eigen::Vector3d>;
 
-// Some points, by their coordinates.
-PositionList
-samplePositions (const PositionList& positions)
-{
-  constexpr std::size_t LOOKED_AT = 2000;
-  PositionList sample;
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / LOOKED_AT);
-  for (std::size_t row = 0; row < positions.size (); row += step)
-    if (positions[row].allFinite ())
-      sample.push_back (positions[row]);
-  std::sort (sample.begin (), sample.end (), [] (const auto& a, const auto& b) {
-    return std::lexicographical_compare (a.begin (), a.end (), b.begin (), b.end ());
-  });
-  return sample;
-}
-
-// The place that most points of a sample have, and how many have it, and the next.
-struct FrequentPlace
-{
-  Eigen::Vector3d place = Eigen::Vector3d::Zero ();
-  std::size_t count = 0, second_count = 0;
-};
-
-FrequentPlace
-findFrequent (const PositionList& sample)
-{
-  FrequentPlace found;
-  for (std::size_t begin = 0, end = 0; begin < sample.size (); begin = end) {
-    while (end < sample.size () && sample[end] == sample[begin])
-      ++end;
-    const std::size_t count = end - begin;
-    found.second_count = std::max (found.second_count, std::min (count, found.count));
-    if (count > found.count) {
-      found.count = count;
-      found.place = sample[begin];
-    }
-  }
-  return found;
-}
-
-// A range from a place within which three quarters of the points are.
-double
-rangeOfMost (const PositionList& sample, const Eigen::Vector3d& place)
-{
-  std::vector<double> ranges;
-  for (const Eigen::Vector3d& position : sample)
-    ranges.push_back ((position - place).lpNorm<Eigen::Infinity> ());
-  return quantile (ranges, 0.75);
-}
-
 // The pixels without a return at a place: points within a range of it (the largest coordinate
 // difference), nearest first.
 // \param fewest of them
@@ -103,18 +53,32 @@ findPixels (const PositionList& positions, const PositionList& sample,
             const Eigen::Vector3d& origin, const InvalidPointLimits& limits, InvalidPoints& found)
 {
   const auto size = static_cast<double> (positions.size ());
-  const FrequentPlace frequent = findFrequent (sample);
-  for (const Eigen::Vector3d& place : {origin, frequent.place}) {
+  // The place that most points of the sample have, how many have it, and the next.
+  Eigen::Vector3d frequent = Eigen::Vector3d::Zero ();
+  std::size_t most_often = 0, second = 0;
+  for (std::size_t begin = 0, end = 0; begin < sample.size (); begin = end) {
+    while (end < sample.size () && sample[end] == sample[begin])
+      ++end;
+    const std::size_t count = end - begin;
+    second = std::max (second, std::min (count, most_often));
+    if (count > most_often) {
+      most_often = count;
+      frequent = sample[begin];
+    }
+  }
+  for (const Eigen::Vector3d& place : {origin, frequent}) {
     const bool is_origin = place == origin;
-    const std::size_t others =
-        place == frequent.place ? frequent.second_count : frequent.count; // of the sample
+    const std::size_t others = place == frequent ? second : most_often; // of the sample
     double fewest = static_cast<double> (limits.fewest);
     if (others > 1) // a single one tells nothing
       fewest = std::max (fewest, limits.others * static_cast<double> (others) * size /
                                      static_cast<double> (sample.size ()));
     if (!is_origin)
       fewest = std::max (fewest, limits.share * size);
-    const double most = rangeOfMost (sample, place);
+    std::vector<double> ranges;
+    for (const Eigen::Vector3d& position : sample)
+      ranges.push_back ((position - place).lpNorm<Eigen::Infinity> ());
+    const double most = quantile (ranges, 0.75); // three quarters of the points are within
     const auto pixels =
         pixelsAt (positions, place, is_origin ? limits.near * most : 0.0, fewest, most, limits);
     for (const auto& pixel : pixels)
@@ -180,7 +144,15 @@ findInvalidPoints (const PositionList& positions, const Eigen::Vector3d& shift,
   for (const Eigen::Vector3d& position : positions)
     if (position.allFinite ())
       box.extend (position);
-  const PositionList sample = samplePositions (positions);
+  constexpr std::size_t LOOKED_AT = 2000;
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / LOOKED_AT);
+  PositionList sample; // by their coordinates
+  for (std::size_t row = 0; row < positions.size (); row += step)
+    if (positions[row].allFinite ())
+      sample.push_back (positions[row]);
+  std::sort (sample.begin (), sample.end (), [] (const auto& a, const auto& b) {
+    return std::lexicographical_compare (a.begin (), a.end (), b.begin (), b.end ());
+  });
   if (sample.empty () || positions.size () <= limits.fewest)
     return found;
   findPixels (positions, sample, Eigen::Vector3d (-shift), limits, found);

@@ -19,17 +19,15 @@ lengthTo (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
 }
 
 // Spacing around a point, by its row of neighbours; that of a cluster, by the points around it.
-// \param is_bound a bound suffices, which takes less time
 double
 spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
-               const NetLimits& limits, bool is_bound = false)
+               const NetLimits& limits)
 {
   const std::size_t count = std::min<std::size_t> (row.size (), SPACING_NEIGHBORS);
   const double last = lengthTo (positions, p, row[row.size () - 1]);
-  const double sixth = lengthTo (positions, p, row[count - 1]);
-  if (sixth < limits.cluster * last)
-    return limits.cluster_spacing * last;
-  return is_bound ? sixth : spacingOf (positions, p, row);
+  return lengthTo (positions, p, row[count - 1]) < limits.cluster * last
+             ? limits.cluster_spacing * last
+             : spacingOf (positions, p, row);
 }
 
 // Calls visit (q, distance, spacing) for the neighbours nearer than a gap, nearest first, until it
@@ -40,9 +38,7 @@ void
 visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row, double gap,
               const NetLimits& limits, Visit&& visit)
 {
-  // Most points are well spaced.
-  if (row.size () == 0 ||
-      lengthTo (positions, p, row[0]) >= gap * spacingAround (positions, p, row, limits, true))
+  if (row.size () == 0)
     return;
   const double spacing = spacingAround (positions, p, row, limits);
   for (const Index q : row) {

@@ -26,6 +26,37 @@ constexpr std::size_t PROBES = 8;  // one in this many centres is measured first
 constexpr double FEW = 0.01;
 constexpr float NO_SURFACE = std::numeric_limits<float>::max (); // points on lines at all scales
 
+// Scales: every point, every fourth, every sixteenth. On a surface, spacings double from one to the next.
+constexpr std::size_t SCALES = 3;
+constexpr std::array<std::size_t, SCALES> STRIDES{1, 4, 16};
+constexpr std::size_t LOOKED_AT = 20; // neighbours at each scale
+
+// Every n-th point along the space-filling curve, so the sample is evenly spread.
+struct PointSample
+{
+  std::size_t stride;
+  KdTree tree;
+
+  // The nearest points of the sample, as indices among all points.
+  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
+  {
+    tree.nearest (query, k, found);
+    for (Neighbor& neighbor : found)
+      neighbor.point *= static_cast<Index> (stride);
+  }
+};
+
+PointSample
+takeSample (const std::vector<Eigen::Vector3d>& positions, std::size_t stride,
+            const RunContext& run)
+{
+  std::vector<Eigen::Vector3d> kept;
+  kept.reserve (positions.size () / stride + 1);
+  for (std::size_t p = 0; p < positions.size (); p += stride)
+    kept.push_back (positions[p]);
+  return {stride, KdTree (kept, run)};
+}
+
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
@@ -58,21 +89,22 @@ struct Place
 };
 
 // Measures the noise at one point; scratch is reused from point to point.
-class NoiseMeter
+struct NoiseMeter
 {
-public:
-  NoiseMeter (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const std::array<const PointSample*, SCALES>& samples, const NoiseLimits& limits)
-      : positions_ (positions), neighbors_ (neighbors), samples_ (samples), limits_ (limits)
-  {
-  }
+  const std::vector<Eigen::Vector3d>& positions;
+  const CsrLists& neighbors;
+  std::array<const PointSample*, SCALES> samples;
+  const NoiseLimits& limits;
+  std::vector<Neighbor> found{};
+  std::vector<Eigen::Vector3d> offsets{}, local{};
+  std::vector<double> heights{};
 
   Place measure (Index p, bool is_unevenness_needed)
   {
-    const auto isRough = [this] (double one) { return one >= limits_.strong; };
+    const auto isRough = [this] (double one) { return one >= limits.strong; };
     std::size_t lines = 0;
     std::array<double, SCALES> residual{}, relative{}, half{}, whole{};
-    const double nearest_spacing = spacingOf (positions_, p, neighbors_.row (p));
+    const double nearest_spacing = spacingOf (positions, p, neighbors.row (p));
     relative.fill (-1.0); // unknown
     for (std::size_t scale = 0; scale < SCALES; ++scale) {
       // The last scale only confirms noise that a smaller one has shown.
@@ -80,26 +112,25 @@ public:
           std::none_of (relative.begin (), relative.end (), isRough))
         break;
       gather (p, scale);
-      if (offsets_.size () < FEWEST)
+      if (offsets.size () < FEWEST)
         continue;
-      if (offsets_.size () > LOOKED_AT) {
-        half[scale] = offsets_[LOOKED_AT / 2].norm ();
-        whole[scale] = offsets_[LOOKED_AT].norm ();
+      if (offsets.size () > LOOKED_AT) {
+        half[scale] = offsets[LOOKED_AT / 2].norm ();
+        whole[scale] = offsets[LOOKED_AT].norm ();
       }
       double spacing = 0.0;
       for (std::size_t i = 1; i <= SPACING_NEIGHBORS; ++i)
-        spacing += offsets_[i].norm () / static_cast<double> (SPACING_NEIGHBORS);
+        spacing += offsets[i].norm () / static_cast<double> (SPACING_NEIGHBORS);
       const PrincipalAxes axes = axesOfOffsets ();
-      if (axes.spread[1] * axes.spread[1] <
-          limits_.least_aspect * axes.spread[2] * axes.spread[2]) {
+      if (axes.spread[1] * axes.spread[1] < limits.least_aspect * axes.spread[2] * axes.spread[2]) {
         ++lines;
         continue;
       }
-      residual[scale] = quadricResidual (offsets_, axes);
-      if (residual[scale] >= limits_.strong * spacing && keepOwnSheet (axes, nearest_spacing)) {
-        if (offsets_.size () < FEWEST)
+      residual[scale] = quadricResidual (offsets, axes);
+      if (residual[scale] >= limits.strong * spacing && keepOwnSheet (axes, nearest_spacing)) {
+        if (offsets.size () < FEWEST)
           continue;
-        residual[scale] = quadricResidual (offsets_, axesOfOffsets ());
+        residual[scale] = quadricResidual (offsets, axesOfOffsets ());
       }
       relative[scale] = residual[scale] / spacing;
     }
@@ -107,7 +138,7 @@ public:
     for (std::size_t scale = 0; scale + 1 < SCALES; ++scale)
       for (std::size_t larger = scale + 1; larger < SCALES; ++larger)
         if (isRough (relative[scale]) && relative[larger] >= 0.0 &&
-            relative[larger] < limits_.falls_to * relative[scale])
+            relative[larger] < limits.falls_to * relative[scale])
           noise = std::max (noise, residual[scale]);
     float flattest = lines == SCALES ? NO_SURFACE : -1.0F;
     for (const double value : relative)
@@ -131,23 +162,23 @@ private:
   PrincipalAxes axesOfOffsets () const
   {
     PlaneFit fit;
-    for (const Eigen::Vector3d& offset : offsets_)
+    for (const Eigen::Vector3d& offset : offsets)
       fit.add (offset);
     return fit.principalAxes ();
   }
 
   void gather (Index p, std::size_t scale)
   {
-    offsets_.assign (1, Eigen::Vector3d::Zero ());
+    offsets.assign (1, Eigen::Vector3d::Zero ());
     if (scale == 0) {
-      for (const Index q : neighbors_.first (p, LOOKED_AT))
-        offsets_.emplace_back (positions_[q] - positions_[p]);
+      for (const Index q : neighbors.first (p, LOOKED_AT))
+        offsets.emplace_back (positions[q] - positions[p]);
       return;
     }
-    samples_[scale]->nearest (positions_[p], LOOKED_AT + 1, found_);
-    for (const Neighbor& neighbor : found_)
+    samples[scale]->nearest (positions[p], LOOKED_AT + 1, found);
+    for (const Neighbor& neighbor : found)
       if (neighbor.point != p)
-        offsets_.emplace_back (positions_[neighbor.point] - positions_[p]);
+        offsets.emplace_back (positions[neighbor.point] - positions[p]);
   }
 
   // If the heights form two distant thin groups, one above the other, they are two sheets. Then
@@ -155,75 +186,44 @@ private:
   // \return whether there are two
   bool keepOwnSheet (const PrincipalAxes& axes, double spacing)
   {
-    local_.clear ();
-    heights_.clear ();
-    for (const Eigen::Vector3d& offset : offsets_) {
-      local_.emplace_back (axes.axes.transpose () * (offset - axes.centre));
-      heights_.push_back (local_.back ()[0]);
+    local.clear ();
+    heights.clear ();
+    for (const Eigen::Vector3d& offset : offsets) {
+      local.emplace_back (axes.axes.transpose () * (offset - axes.centre));
+      heights.push_back (local.back ()[0]);
     }
-    std::sort (heights_.begin (), heights_.end ());
-    const std::size_t count = heights_.size ();
+    std::sort (heights.begin (), heights.end ());
+    const std::size_t count = heights.size ();
     std::size_t below = 0;
     double gap = 0.0;
     for (std::size_t i = 1; i < count; ++i)
-      if (heights_[i] - heights_[i - 1] > gap) {
-        gap = heights_[i] - heights_[i - 1];
+      if (heights[i] - heights[i - 1] > gap) {
+        gap = heights[i] - heights[i - 1];
         below = i;
       }
-    if (below == 0 || gap < limits_.sheet_gap * spacing ||
-        gap <
-            std::max (heights_[below - 1] - heights_.front (), heights_.back () - heights_[below]))
+    if (below == 0 || gap < limits.sheet_gap * spacing ||
+        gap < std::max (heights[below - 1] - heights.front (), heights.back () - heights[below]))
       return false;
     // Terraces lie side by side: their centres are farther apart than their points spread, less the
     // error of a mean of few points.
-    const double middle = 0.5 * (heights_[below - 1] + heights_[below]);
+    const double middle = 0.5 * (heights[below - 1] + heights[below]);
     Eigen::Vector2d lower = Eigen::Vector2d::Zero (), upper = Eigen::Vector2d::Zero ();
-    for (const Eigen::Vector3d& point : local_)
+    for (const Eigen::Vector3d& point : local)
       (point[0] < middle ? lower : upper) += point.tail<2> ();
     const double apart =
         (lower / static_cast<double> (below) - upper / static_cast<double> (count - below)).norm ();
     const auto fewer = static_cast<double> (std::min (below, count - below));
     if (apart > (0.5 + 1.5 / std::sqrt (fewer)) * axes.spread[1])
       return false;
-    const bool is_lower = local_.front ()[0] < middle;
+    const bool is_lower = local.front ()[0] < middle;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i)
-      if ((local_[i][0] < middle) == is_lower)
-        offsets_[kept++] = offsets_[i];
-    offsets_.resize (kept);
+      if ((local[i][0] < middle) == is_lower)
+        offsets[kept++] = offsets[i];
+    offsets.resize (kept);
     return true;
   }
-
-  const std::vector<Eigen::Vector3d>& positions_;
-  const CsrLists& neighbors_;
-  std::array<const PointSample*, SCALES> samples_;
-  NoiseLimits limits_;
-  std::vector<Neighbor> found_;
-  std::vector<Eigen::Vector3d> offsets_;
-  std::vector<Eigen::Vector3d> local_;
-  std::vector<double> heights_;
 };
-
-// A value around each centre: a quantile of those measured near it.
-std::vector<float>
-smoothed (const std::vector<Eigen::Vector3d>& positions, const std::vector<Place>& at_centre,
-          float Place::*value, const PointSample& centres, double quantile, const RunContext& run)
-{
-  std::vector<float> result (at_centre.size ());
-  parallelRanges (run, at_centre.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    std::vector<float> values;
-    for (std::size_t c = first; c < last; ++c) {
-      centres.nearest (positions[c * CENTRES], AROUND, found);
-      values.clear ();
-      for (const Neighbor& neighbor : found)
-        values.push_back (at_centre[neighbor.point / CENTRES].*value);
-      result[c] = valueAtRank (
-          values, static_cast<std::size_t> (quantile * static_cast<double> (values.size () - 1)));
-    }
-  });
-  return result;
-}
 
 // Measurements at each centre.
 struct Places
@@ -236,14 +236,15 @@ Places
 measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                const NoiseLimits& limits, const RunContext& run)
 {
-  const PointSample quarter (positions, STRIDES[1], run), sixteenth (positions, STRIDES[2], run);
+  const PointSample quarter = takeSample (positions, STRIDES[1], run),
+                    sixteenth = takeSample (positions, STRIDES[2], run);
   const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
   Places places;
   places.at_centre.resize (centres);
   for (const std::size_t stride : {PROBES, std::size_t{1}}) {
     const std::size_t count = (centres + stride - 1) / stride;
     parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
-      NoiseMeter meter (positions, neighbors, {nullptr, &quarter, &sixteenth}, limits);
+      NoiseMeter meter{positions, neighbors, {nullptr, &quarter, &sixteenth}, limits};
       for (std::size_t i = first * stride; i < last * stride; i += stride)
         places.at_centre[i] = meter.measure (static_cast<Index> (i * CENTRES), places.are_uneven);
     });
@@ -275,22 +276,26 @@ measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   const Places places = measurePlaces (positions, neighbors, limits, run);
   if (!places.are_noisy && !places.are_uneven)
     return noise;
-  const PointSample centres (positions, CENTRES, run);
+  const PointSample centres = takeSample (positions, CENTRES, run);
   std::vector<Index> nearest (n); // centre of each point, in space: along the curve, values jump
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    for (std::size_t p = first; p < last; ++p) {
-      centres.nearest (positions[p], 1, found);
-      nearest[p] = found.front ().point / CENTRES;
-    }
+  parallelPoints<std::vector<Neighbor>> (run, n, [&] (Index p, auto& found) {
+    centres.nearest (positions[p], 1, found);
+    nearest[p] = found.front ().point / CENTRES;
   });
+  // A value around each point: around its centre, a quantile of those measured near that.
   const auto around = [&] (float Place::*value, double quantile) {
-    const std::vector<float> smooth =
-        smoothed (positions, places.at_centre, value, centres, quantile, run);
-    std::vector<float> at_point (n);
-    for (std::size_t p = 0; p < n; ++p)
-      at_point[p] = smooth[nearest[p]];
-    return at_point;
+    std::vector<float> at_centre (places.at_centre.size ());
+    parallelPoints<std::vector<Neighbor>, std::vector<float>> (
+        run, at_centre.size (), [&] (Index c, auto& found, auto& values) {
+          centres.nearest (positions[c * CENTRES], AROUND, found);
+          values.clear ();
+          for (const Neighbor& neighbor : found)
+            values.push_back (places.at_centre[neighbor.point / CENTRES].*value);
+          at_centre[c] = valueAtRank (
+              values,
+              static_cast<std::size_t> (quantile * static_cast<double> (values.size () - 1)));
+        });
+    return valuesAt (at_centre, nearest);
   };
   if (places.are_uneven) {
     noise.unevenness = around (&Place::unevenness, 0.5);
@@ -364,44 +369,41 @@ projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   std::vector<PointSample> samples;
   samples.reserve (std::size (STRIDES));
   for (const std::size_t stride : STRIDES)
-    samples.emplace_back (positions, stride, run);
+    samples.push_back (takeSample (positions, stride, run));
   std::vector<Eigen::Vector3d> projected = positions;
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    for (std::size_t p = first; p < last; ++p) {
-      const auto deviation = static_cast<double> (noise.at_point[p]);
-      if (deviation <= 0.0)
-        continue;
-      const Row row = neighbors.first (p, LOOKED_AT);
-      const double known = (positions[row[row.size () - 1]] - positions[p]).squaredNorm ();
-      const double radius = limits.radius * deviation;
-      const double wanted = std::max (static_cast<double> (LOOKED_AT),
-                                      static_cast<double> (row.size ()) * radius * radius / known);
-      std::size_t scale = 0;
-      while (scale + 1 < SCALES && wanted > static_cast<double> (MOST * STRIDES[scale]))
-        ++scale;
-      const auto count = static_cast<std::size_t> (
-          std::min (static_cast<double> (MOST), wanted / static_cast<double> (STRIDES[scale])));
-      samples[scale].nearest (positions[p], count, found);
-      const double sqr_reach = found.back ().sqr_distance;
-      Plane plane;
-      for (int pass = 0; pass < PASSES; ++pass) {
-        PlaneFit fit;
-        for (const Neighbor& neighbor : found) {
-          const Eigen::Vector3d offset = positions[neighbor.point] - positions[p];
-          double weight = std::exp (-NARROWNESS * neighbor.sqr_distance / sqr_reach);
-          if (pass > 0) {
-            const double share = plane.height (offset) / (OUTSIDE * deviation);
-            weight *= std::abs (share) < 1.0 ? (1.0 - share * share) * (1.0 - share * share) : 0.0;
-          }
-          fit.add (offset, weight);
+  parallelPoints<std::vector<Neighbor>> (run, positions.size (), [&] (Index p, auto& found) {
+    const auto deviation = static_cast<double> (noise.at_point[p]);
+    if (deviation <= 0.0)
+      return;
+    const Row row = neighbors.first (p, LOOKED_AT);
+    const double known = (positions[row[row.size () - 1]] - positions[p]).squaredNorm ();
+    const double radius = limits.radius * deviation;
+    const double wanted = std::max (static_cast<double> (LOOKED_AT),
+                                    static_cast<double> (row.size ()) * radius * radius / known);
+    std::size_t scale = 0;
+    while (scale + 1 < SCALES && wanted > static_cast<double> (MOST * STRIDES[scale]))
+      ++scale;
+    const auto count = static_cast<std::size_t> (
+        std::min (static_cast<double> (MOST), wanted / static_cast<double> (STRIDES[scale])));
+    samples[scale].nearest (positions[p], count, found);
+    const double sqr_reach = found.back ().sqr_distance;
+    Plane plane;
+    for (int pass = 0; pass < PASSES; ++pass) {
+      PlaneFit fit;
+      for (const Neighbor& neighbor : found) {
+        const Eigen::Vector3d offset = positions[neighbor.point] - positions[p];
+        double weight = std::exp (-NARROWNESS * neighbor.sqr_distance / sqr_reach);
+        if (pass > 0) {
+          const double share = plane.height (offset) / (OUTSIDE * deviation);
+          weight *= std::abs (share) < 1.0 ? (1.0 - share * share) * (1.0 - share * share) : 0.0;
         }
-        if (fit.weight () < 1.0)
-          break;
-        plane = fit.plane ();
+        fit.add (offset, weight);
       }
-      projected[p] = positions[p] - plane.normal * plane.height (Eigen::Vector3d::Zero ());
+      if (fit.weight () < 1.0)
+        break;
+      plane = fit.plane ();
     }
+    projected[p] = positions[p] - plane.normal * plane.height (Eigen::Vector3d::Zero ());
   });
   return projected;
 }

@@ -105,15 +105,12 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   }
   std::vector<std::uint8_t> is_isolated (distinct.size (), 0);
   const KdTree tree (distinct, run);
-  parallelRanges (run, distinct.size (), [&] (std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> found;
-    for (std::size_t i = begin; i < end; ++i) {
-      tree.nearest (distinct[i], limits.object, found); // includes the point itself
-      const double near = limits.near * distinct[i].norm ();
-      const bool is_alone =
-          found.size () < limits.object || std::sqrt (found.back ().sqr_distance) > near;
-      is_isolated[i] = is_alone ? 1 : 0;
-    }
+  parallelPoints<std::vector<Neighbor>> (run, distinct.size (), [&] (Index i, auto& found) {
+    tree.nearest (distinct[i], limits.object, found); // includes the point itself
+    const double near = limits.near * distinct[i].norm ();
+    const bool is_alone =
+        found.size () < limits.object || std::sqrt (found.back ().sqr_distance) > near;
+    is_isolated[i] = is_alone ? 1 : 0;
   });
   std::vector<Index> isolated;
   for (std::size_t i = 0; i < rows.size (); ++i)
@@ -163,65 +160,50 @@ distance (const Positions& positions, Index p, Index q)
   return (positions[p] - positions[q]).norm ();
 }
 
-// Tests whether a point lies apart; scratch is reused from point to point.
-class ApartTest
+// Fits the plane of the neighbours of a point without it, then again without strays.
+// \param scratch reused from point to point
+bool
+isOffPlane (const Positions& positions, Index p, const Row& row, double least_height,
+            const OutlierLimits& limits, std::vector<double>& scratch)
 {
-public:
-  ApartTest (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const std::vector<float>& reach, const OutlierLimits& limits)
-      : positions_ (positions), neighbors_ (neighbors), reach_ (reach), limits_ (limits)
-  {
-  }
-
-  bool isApart (Index p)
-  {
-    const Row row = neighbors_.first (p, NEAREST_POINTS);
-    if (row.size () < 4)
-      return false;
-    // The nearest ones may be of the same small cluster: the threshold uses the reach of the
-    // others.
-    const std::size_t beyond = std::min (limits_.cluster, row.size () / 2);
-    const double to_others = distance (positions_, p, row[beyond]);
-    scratch_.clear ();
-    for (std::size_t i = beyond; i < row.size (); ++i)
-      scratch_.push_back (reach_[row[i]]);
-    if (to_others <= limits_.off_plane * *std::min_element (scratch_.begin (), scratch_.end ()))
-      return false; // true for nearly all points, without a median
-    const double usual = median (scratch_);
-    if (to_others > limits_.far * usual)
-      return true;
-    return to_others > limits_.off_plane * usual && isOffPlane (p, row, limits_.off_plane * usual);
-  }
-
-private:
-  // Fits the plane of the neighbours without the point, then again without strays.
-  bool isOffPlane (Index p, Row row, double least_height)
-  {
-    double spread = std::numeric_limits<double>::infinity ();
-    Plane plane;
-    for (int pass = 0; pass < 2; ++pass) {
-      PlaneFit fit;
-      for (Index q : row) {
-        const Eigen::Vector3d offset = positions_[q] - positions_[p];
-        if (pass == 0 || std::abs (plane.height (offset)) <= limits_.stray * spread)
-          fit.add (offset);
-      }
-      plane = fit.plane ();
-      scratch_.clear ();
-      for (Index q : row)
-        scratch_.push_back (std::abs (plane.height (positions_[q] - positions_[p])));
-      spread = median (scratch_);
+  double spread = std::numeric_limits<double>::infinity ();
+  Plane plane;
+  for (int pass = 0; pass < 2; ++pass) {
+    PlaneFit fit;
+    for (const Index q : row) {
+      const Eigen::Vector3d offset = positions[q] - positions[p];
+      if (pass == 0 || std::abs (plane.height (offset)) <= limits.stray * spread)
+        fit.add (offset);
     }
-    const double height = std::abs (plane.height (Eigen::Vector3d::Zero ()));
-    return height > least_height && spread < limits_.flat * height;
+    plane = fit.plane ();
+    scratch.clear ();
+    for (const Index q : row)
+      scratch.push_back (std::abs (plane.height (positions[q] - positions[p])));
+    spread = median (scratch);
   }
+  const double height = std::abs (plane.height (Eigen::Vector3d::Zero ()));
+  return height > least_height && spread < limits.flat * height;
+}
 
-  const std::vector<Eigen::Vector3d>& positions_;
-  const CsrLists& neighbors_;
-  const std::vector<float>& reach_;
-  const OutlierLimits& limits_;
-  std::vector<double> scratch_;
-};
+bool
+isApart (const Positions& positions, Index p, const Row& row, const std::vector<float>& reach,
+         const OutlierLimits& limits, std::vector<double>& scratch)
+{
+  if (row.size () < 4)
+    return false;
+  // The nearest ones may be of the same small cluster: the threshold uses the reach of the others.
+  const std::size_t beyond = std::min (limits.cluster, row.size () / 2);
+  const double to_others = distance (positions, p, row[beyond]);
+  scratch.clear ();
+  for (std::size_t i = beyond; i < row.size (); ++i)
+    scratch.push_back (reach[row[i]]);
+  if (to_others <= limits.off_plane * *std::min_element (scratch.begin (), scratch.end ()))
+    return false; // true for nearly all points, without a median
+  const double usual = median (scratch), least_height = limits.off_plane * usual;
+  return to_others > limits.far * usual ||
+         (to_others > least_height &&
+          isOffPlane (positions, p, row, least_height, limits, scratch));
+}
 
 // Of each point that enough others count as close: the points apart that it counts as close. An
 // outlier may well be nearest to another outlier, but few points are nearest to the latter.
@@ -294,10 +276,9 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
           static_cast<float> (distance (positions, p, row[std::min (REACH_OF, row.size ()) - 1]));
   });
   std::vector<std::uint8_t> apart (n, 0);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    ApartTest test (positions, neighbors, reach, limits);
-    for (std::size_t p = first; p < last; ++p)
-      apart[p] = test.isApart (static_cast<Index> (p)) ? 1 : 0;
+  parallelPoints<std::vector<double>> (run, n, [&] (Index p, std::vector<double>& scratch) {
+    const Row row = neighbors.first (p, NEAREST_POINTS);
+    apart[p] = isApart (positions, p, row, reach, limits, scratch) ? 1 : 0;
   });
   if (std::find (apart.begin (), apart.end (), 1) == apart.end ())
     return {};

@@ -10,7 +10,7 @@
 namespace pcl::floater {
 namespace {
 constexpr std::size_t BUCKET = 64;  // points; a bucket is about 8 spacings wide, its diagonal 12
-constexpr std::size_t GROUPED = 64; // buckets whose common box is tested first
+constexpr std::size_t GROUPED = 64; // buckets of a common box
 
 // Exceeds one by more than the rounding of a sum of distances.
 constexpr double ENLARGED = 1.0 + 1e-9;
@@ -76,19 +76,10 @@ BlockSearch::cut ()
   const auto isNear = [this] (const Box& one, const Box& other) {
     return one.squaredExteriorDistance (other) <= halo_ * halo_;
   };
-  const auto isNearOwn = [&] (const Box& box) {
-    for (std::size_t g = 0; g < own_groups.size () && isNear (box, own_box); ++g) {
-      const auto first = buckets.begin () + static_cast<std::ptrdiff_t> (own_first + g * GROUPED);
-      const auto last = buckets.begin () + static_cast<std::ptrdiff_t> (
-                                               std::min (own_first + (g + 1) * GROUPED, own_last));
-      if (isNear (box, own_groups[g]) &&
-          std::any_of (first, last, [&] (const Box& bucket) { return isNear (box, bucket); }))
-        return true;
-    }
-    return false;
-  };
   const auto isAround = [&] (const Box& box) {
-    return isNearOwn (box) ||
+    return (isNear (box, own_box) &&
+            std::any_of (own_groups.begin (), own_groups.end (),
+                         [&] (const Box& group) { return isNear (box, group); })) ||
            std::any_of (balls_.begin (), balls_.end (), [&box] (const Ball& ball) {
              return box.squaredExteriorDistance (ball.centre) <= ball.radius * ball.radius;
            });

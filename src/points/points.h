@@ -114,43 +114,4 @@ setAside (Points& points, const std::vector<Index>& kept, const RunContext& run)
 Points
 withStacked (const Points& points);
 
-/// Scales: every point, every fourth, every sixteenth. On a surface, spacings double from one to
-/// the next.
-constexpr std::size_t SCALES = 3;
-constexpr std::array<std::size_t, SCALES> STRIDES{1, 4, 16};
-constexpr std::size_t LOOKED_AT = 20; ///< neighbours at each scale
-
-/// Every n-th point along the space-filling curve, so the sample is evenly spread.
-class PointSample
-{
-public:
-  PointSample (const std::vector<Eigen::Vector3d>& positions, std::size_t stride,
-               const RunContext& run)
-      : stride_ (stride), tree_ (every (positions, stride), run)
-  {
-  }
-
-  /// The nearest points of the sample, as indices among all points.
-  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
-  {
-    tree_.nearest (query, k, found);
-    for (Neighbor& neighbor : found)
-      neighbor.point *= static_cast<Index> (stride_);
-  }
-
-private:
-  static std::vector<Eigen::Vector3d> every (const std::vector<Eigen::Vector3d>& positions,
-                                             std::size_t stride)
-  {
-    std::vector<Eigen::Vector3d> kept;
-    kept.reserve (positions.size () / stride + 1);
-    for (std::size_t p = 0; p < positions.size (); p += stride)
-      kept.push_back (positions[p]);
-    return kept;
-  }
-
-  std::size_t stride_ = 1;
-  KdTree tree_;
-};
-
 } // namespace pcl::floater

@@ -107,21 +107,18 @@ openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
                     const RunContext& run)
 {
   std::vector<std::uint8_t> wide (positions.size (), 0);
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    PlanarStar star;
-    std::vector<PlanarNeighbor> planar;
-    for (std::size_t p = first; p < last; ++p) {
-      const TangentFrame frame (normals[p].cast<double> ());
-      planar.clear ();
-      for (Index q : neighbors.row (p)) {
-        const Eigen::Vector2d projected = frame.project (positions[q] - positions[p]);
-        if (projected != Eigen::Vector2d::Zero ())
-          planar.push_back ({projected, q});
-      }
-      star.make (planar);
-      wide[p] = star.openingAngle () > opening_angle ? 1 : 0;
-    }
-  });
+  parallelPoints<PlanarStar, std::vector<PlanarNeighbor>> (
+      run, positions.size (), [&] (Index p, auto& star, auto& planar) {
+        const TangentFrame frame (normals[p].cast<double> ());
+        planar.clear ();
+        for (const Index q : neighbors.row (p)) {
+          const Eigen::Vector2d projected = frame.project (positions[q] - positions[p]);
+          if (projected != Eigen::Vector2d::Zero ())
+            planar.push_back ({projected, q});
+        }
+        star.make (planar);
+        wide[p] = star.openingAngle () > opening_angle ? 1 : 0;
+      });
   std::vector<Index> points;
   for (std::size_t p = 0; p < wide.size (); ++p)
     if (wide[p] != 0)
