@@ -39,12 +39,6 @@ struct CellPlace
   std::uint8_t quarters = 0; // which of the four directions of the shape
 };
 
-struct CellPacking
-{
-  std::vector<CellPlace> places;
-  Index side = 0; // of the square, in cells
-};
-
 // Shapes up to this many cells wide and high are packed as boxes: the search for one can start
 // where the last one of its size was placed.
 constexpr std::size_t SMALL = 8;
@@ -179,28 +173,13 @@ private:
   mutable std::size_t work_ = 0;
 };
 
-bool
-isSmall (const CellMask& shape)
-{
-  return shape.width <= SMALL && shape.rows.size () <= SMALL;
-}
-
-CellMask
-boxOf (const CellMask& shape)
-{
-  CellMask box = shape;
-  for (std::vector<CellRun>& row : box.rows)
-    row = {{0, shape.width - 1}};
-  return box;
-}
-
-// \return the positions; side is the height
-CellPacking
+// \param[out] places of the shapes
+// \return the height, in cells
+Index
 packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& order, Index width,
-             const RunContext& run)
+             const RunContext& run, std::vector<CellPlace>& places)
 {
-  CellPacking packing;
-  packing.places.resize (shapes.size ());
+  places.resize (shapes.size ());
   Strip strip (width);
   std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of boxes of a size
   // Where there are thousands of long shapes, such as needles, the rest is packed as boxes upwards.
@@ -210,8 +189,11 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
     CellPlace best;
-    if (const bool is_small = isSmall (shapes[s][0]); is_small || strip.work () > most_work) {
-      const CellMask box = boxOf (shapes[s][0]);
+    CellMask box = shapes[s][0];
+    const bool is_small = box.width <= SMALL && box.rows.size () <= SMALL;
+    if (is_small || strip.work () > most_work) {
+      for (std::vector<CellRun>& row : box.rows)
+        row = {{0, box.width - 1}};
       CellPlace& last = is_small ? last_places[{box.width, box.rows.size ()}] : last_of_rest;
       last = best = strip.findPlace (box, last, NONE);
       strip.occupy (box, best);
@@ -232,10 +214,9 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
       }
       strip.occupy (shapes[s][best.quarters], best);
     }
-    packing.places[s] = best;
+    places[s] = best;
   }
-  packing.side = static_cast<Index> (strip.height ());
-  return packing;
+  return static_cast<Index> (strip.height ());
 }
 
 // The cells that triangles touch, and all adjacent cells; so the shape begins one cell left of and
@@ -283,7 +264,8 @@ makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::V
 
 // Packs shapes into a small square: largest first, each at the lowest free position in a strip. The
 // width is varied until it equals the height.
-CellPacking
+// \return the positions, and the side of the square in cells
+std::pair<std::vector<CellPlace>, Index>
 packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContext& run)
 {
   std::vector<Index> order (shapes.size ());
@@ -300,14 +282,14 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
   constexpr double EXPECTED_FILL = 0.85;
   auto width = std::max (
       least_width, static_cast<Index> (std::sqrt (static_cast<double> (cells) / EXPECTED_FILL)));
-  CellPacking best;
-  best.side = NONE;
+  std::vector<CellPlace> best, places;
+  Index least_side = NONE;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    CellPacking packing = packInStrip (shapes, order, width, run);
-    const Index height = packing.side;
-    packing.side = std::max (width, height);
-    if (packing.side < best.side)
-      best = std::move (packing);
+    const Index height = packInStrip (shapes, order, width, run, places);
+    if (std::max (width, height) < least_side) {
+      least_side = std::max (width, height);
+      best.swap (places);
+    }
     // Side of the square of the same area.
     const auto next = std::max (
         least_width, static_cast<Index> (std::sqrt (static_cast<double> (width) * height)));
@@ -315,18 +297,7 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
       break;
     width = next;
   }
-  return best;
-}
-
-// Signed area.
-double
-planeArea (const ChartLayout& chart)
-{
-  double area = 0.0;
-  for (const Triangle& t : chart.corners)
-    area += 0.5 * cross (Eigen::Vector2d (chart.uv[t[1]] - chart.uv[t[0]]),
-                         Eigen::Vector2d (chart.uv[t[2]] - chart.uv[t[0]]));
-  return area;
+  return {std::move (best), least_side};
 }
 
 // Direction of a side of the smallest enclosing rectangle, which is along an edge of the hull
@@ -368,8 +339,11 @@ turnAndScale (ChartLayout& chart, double area, double longest)
     }
     return box;
   };
+  double plane_area = 0.0;
+  for (const auto& [a, b, c] : chart.corners)
+    plane_area += 0.5 * cross (chart.uv[b] - chart.uv[a], chart.uv[c] - chart.uv[a]);
   Eigen::AlignedBox2d box =
-      scaleAll (std::sqrt (std::max (area, LEAST_AREA) / planeArea (chart)), right, up);
+      scaleAll (std::sqrt (std::max (area, LEAST_AREA) / plane_area), right, up);
   const double length = box.sizes ().maxCoeff ();
   if (length < SHORTEST || length > longest)
     box = scaleAll ((length < SHORTEST ? SHORTEST : longest) / length, Eigen::Vector2d::UnitX (),
@@ -420,13 +394,12 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
       turnQuarters (uv, 1);
     }
   });
-  const CellPacking packing = packCells (masks, limits.attempts, run);
-  const double side = static_cast<double> (packing.side);
+  const auto packed = packCells (masks, limits.attempts, run);
+  const auto side = static_cast<double> (packed.second);
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
-    const CellPlace& place = packing.places[c];
-    turnQuarters (charts[c].uv, place.quarters);
-    const Eigen::Vector2d corner (static_cast<double> (place.x + 1),
-                                  static_cast<double> (place.y + 1));
+    const auto& [x, y, quarters] = packed.first[c];
+    turnQuarters (charts[c].uv, quarters);
+    const Eigen::Vector2d corner (static_cast<double> (x + 1), static_cast<double> (y + 1));
     for (Eigen::Vector2d& p : charts[c].uv)
       p = (p + corner) / side;
   });

@@ -99,7 +99,8 @@ public:
       }
   }
 
-  void merge (const RunContext& run)
+  // Joins the facets; to be called once.
+  MeshComponents merged (const RunContext& run)
   {
     for (Index a = 0; a < charts_.size (); ++a)
       offerAll (a);
@@ -109,10 +110,6 @@ public:
     for (Index a = 0; a < charts_.size (); ++a)
       offerAll (a);
     takeOffers (run);
-  }
-
-  MeshComponents parts ()
-  {
     MeshComponents parts;
     parts.of_triangle.resize (mesh_.triangles.size ());
     for (std::size_t t = 0; t < mesh_.triangles.size (); ++t)
@@ -378,9 +375,8 @@ findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
 {
   const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
   const MeshComponents facets = growFacets (mesh, positions, area_vectors, limits, run);
-  ChartMerger merger (mesh, positions, area_vectors, facets, halves, limits);
-  merger.merge (run);
-  MeshComponents charts = merger.parts ();
+  MeshComponents charts =
+      ChartMerger (mesh, positions, area_vectors, facets, halves, limits).merged (run);
   straightenSeams (mesh, positions, area_vectors, limits, run, charts);
   renumber (charts);
   return charts;

@@ -41,13 +41,36 @@ edgesOf (const Plane& x, const Triangle& c)
   return edges;
 }
 
-class Descent
+using Entries = std::vector<Eigen::Triplet<double>>; // of the lower triangle of a symmetric matrix
+
+template <std::size_t N>
+void
+addBlock (const std::array<Index, N>& rows, const Eigen::Matrix<double, N, N>& block,
+          Entries& entries)
 {
-public:
-  Descent (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits)
-      : chart_ (chart), rest_ (rest), limits_ (limits)
-  {
-  }
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j < N; ++j)
+      if (rows[i] >= rows[j])
+        entries.emplace_back (static_cast<int> (rows[i]), static_cast<int> (rows[j]),
+                              block (static_cast<Eigen::Index> (i), static_cast<Eigen::Index> (j)));
+}
+
+Eigen::SparseMatrix<double>
+makeMatrix (Entries& entries, Eigen::Index size)
+{
+  for (int i = 0; i < size; ++i)
+    entries.emplace_back (i, i, MEAN_WEIGHT);
+  Eigen::SparseMatrix<double> matrix (size, size);
+  matrix.setFromTriplets (entries.begin (), entries.end ());
+  return matrix;
+}
+
+struct Descent
+{
+  const MeshPiece& chart;
+  const RestShapes& rest;
+  const DescentLimits& limits;
+  Cholesky laplacian{};
 
   void run (const RunContext& run, std::vector<Eigen::Vector2d>& uv)
   {
@@ -57,7 +80,7 @@ public:
     const auto accept = [&] {
       std::vector<Eigen::Vector2d> next (uv.size ());
       Eigen::Map<Plane> (next.front ().data (), vertices, 2) = x;
-      if (!isSimple (chart_.loop, next))
+      if (!isSimple (chart.loop, next))
         return false;
       uv = std::move (next);
       return true;
@@ -65,11 +88,11 @@ public:
     if (!accept ())
       return;
     factorize ();
-    if (solver_.info () != Eigen::Success)
+    if (laplacian.info () != Eigen::Success)
       return;
     double energy = energyOf (x);
     descend (run, x, energy, accept);
-    if (energy > limits_.enough) {
+    if (energy > limits.enough) {
       newton (run, x, energy);
       if (accept ())
         descend (run, x, energy, accept);
@@ -82,11 +105,11 @@ private:
   void scale (Plane& x) const
   {
     double direct = 0.0, inverse = 0.0;
-    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
-      const Eigen::Matrix2d map = edgesOf (x, chart_.mesh.triangles[t]) * rest_.shapes[t].to_unit;
+    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+      const Eigen::Matrix2d map = edgesOf (x, chart.mesh.triangles[t]) * rest.shapes[t].to_unit;
       const double squares = map.squaredNorm (), determinant = map.determinant ();
-      direct += rest_.shapes[t].area * squares;
-      inverse += rest_.shapes[t].area * squares / (determinant * determinant);
+      direct += rest.shapes[t].area * squares;
+      inverse += rest.shapes[t].area * squares / (determinant * determinant);
     }
     const double factor = std::sqrt (std::sqrt (inverse / direct));
     if (std::isfinite (factor) && factor > 0.0)
@@ -100,7 +123,7 @@ private:
     const double slope = gradient.cwiseProduct (direction).sum ();
     if (!(slope < 0.0))
       return false;
-    double length = std::min (1.0, limits_.safe_share * reach (x, direction));
+    double length = std::min (1.0, limits.safe_share * reach (x, direction));
     for (; length > SHORTEST; length *= 0.5) {
       Plane next = x + length * direction;
       const double next_energy = energyOf (next);
@@ -118,12 +141,12 @@ private:
   template <typename Accept>
   void descend (const RunContext& run, Plane& x, double& energy, const Accept& accept) const
   {
-    for (int step = 1; step <= limits_.steps; ++step) {
+    for (int step = 1; step <= limits.steps; ++step) {
       run.poll ();
-      const Plane gradient = gradientOf (x), direction = -solver_.solve (gradient);
+      const Plane gradient = gradientOf (x), direction = -laplacian.solve (gradient);
       const double last_energy = energy;
       if (!goAlong (direction, gradient, x, energy) ||
-          last_energy - energy <= limits_.least_progress * (energy - 4.0) ||
+          last_energy - energy <= limits.least_progress * (energy - 4.0) ||
           (step % STEPS_PER_LOOK == 0 && !accept ()))
         return;
     }
@@ -136,7 +159,7 @@ private:
   {
     Cholesky solver;
     bool is_analyzed = false;
-    for (int step = 0; step < limits_.newton_steps; ++step) {
+    for (int step = 0; step < limits.newton_steps; ++step) {
       run.poll ();
       Eigen::SparseMatrix<double> hessian = hessianOf (x);
       if (!is_analyzed)
@@ -160,21 +183,20 @@ private:
         hessian.diagonal () *= (1.0 + more) / (1.0 + damping);
         damping = more;
       }
-      if (energy < limits_.enough ||
-          last_energy - energy <= limits_.least_newton_progress * (energy - 4.0))
+      if (energy < limits.enough ||
+          last_energy - energy <= limits.least_newton_progress * (energy - 4.0))
         return;
     }
   }
 
   Eigen::SparseMatrix<double> hessianOf (const Plane& x) const
   {
-    std::vector<Eigen::Triplet<double>> entries;
+    Entries entries;
     constexpr std::size_t PER_TRIANGLE = 21;
-    entries.reserve (PER_TRIANGLE * rest_.shapes.size () +
-                     2 * static_cast<std::size_t> (x.rows ()));
-    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
-      const RestShape& shape = rest_.shapes[t];
-      const Triangle& c = chart_.mesh.triangles[t];
+    entries.reserve (PER_TRIANGLE * rest.shapes.size () + 2 * static_cast<std::size_t> (x.rows ()));
+    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+      const RestShape& shape = rest.shapes[t];
+      const Triangle& c = chart.mesh.triangles[t];
       const Eigen::JacobiSVD<Eigen::Matrix2d> svd (edgesOf (x, c) * shape.to_unit,
                                                    Eigen::ComputeFullU | Eigen::ComputeFullV);
       const Eigen::Matrix2d &u = svd.matrixU (), &v = svd.matrixV ();
@@ -198,21 +220,10 @@ private:
         const Eigen::Map<const Eigen::Matrix<double, 6, 1>> change_of (change.data ());
         block += shape.area * values[m] * change_of * change_of.transpose ();
       }
-      for (Eigen::Index i = 0; i < 6; ++i)
-        for (Eigen::Index j = 0; j < 6; ++j) {
-          const int row =
-              2 * static_cast<int> (c[static_cast<std::size_t> (i / 2)]) + static_cast<int> (i % 2);
-          const int column =
-              2 * static_cast<int> (c[static_cast<std::size_t> (j / 2)]) + static_cast<int> (j % 2);
-          if (row >= column)
-            entries.emplace_back (row, column, block (i, j));
-        }
+      addBlock<6> ({2 * c[0], 2 * c[0] + 1, 2 * c[1], 2 * c[1] + 1, 2 * c[2], 2 * c[2] + 1}, block,
+                   entries);
     }
-    for (int i = 0; i < 2 * static_cast<int> (x.rows ()); ++i)
-      entries.emplace_back (i, i, MEAN_WEIGHT);
-    Eigen::SparseMatrix<double> matrix (2 * x.rows (), 2 * x.rows ());
-    matrix.setFromTriplets (entries.begin (), entries.end ());
-    return matrix;
+    return makeMatrix (entries, 2 * x.rows ());
   }
 
   // Gradients of the three hat functions of a triangle, in rows.
@@ -227,38 +238,27 @@ private:
   // The Laplacian of the shapes: proportional to the Hessian of the energy near its minimum.
   void factorize ()
   {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve (9 * rest_.shapes.size () + chart_.positions.size ());
-    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
-      const Eigen::Matrix<double, 3, 2> slopes = slopesOf (rest_.shapes[t]);
-      const Eigen::Matrix3d block = rest_.shapes[t].area * slopes * slopes.transpose ();
-      const Triangle& c = chart_.mesh.triangles[t];
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          if (c[i] >= c[j])
-            entries.emplace_back (
-                static_cast<int> (c[i]), static_cast<int> (c[j]),
-                block (static_cast<Eigen::Index> (i), static_cast<Eigen::Index> (j)));
+    Entries entries;
+    entries.reserve (9 * rest.shapes.size () + chart.positions.size ());
+    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+      const Eigen::Matrix<double, 3, 2> slopes = slopesOf (rest.shapes[t]);
+      addBlock<3> (chart.mesh.triangles[t], rest.shapes[t].area * slopes * slopes.transpose (),
+                   entries);
     }
-    const auto size = static_cast<Eigen::Index> (chart_.positions.size ());
-    for (Eigen::Index i = 0; i < size; ++i)
-      entries.emplace_back (static_cast<int> (i), static_cast<int> (i), MEAN_WEIGHT);
-    Eigen::SparseMatrix<double> matrix (size, size);
-    matrix.setFromTriplets (entries.begin (), entries.end ());
-    solver_.compute (matrix);
+    laplacian.compute (makeMatrix (entries, static_cast<Eigen::Index> (chart.positions.size ())));
   }
 
   // Infinite if a triangle has no area.
   double energyOf (const Plane& x) const
   {
     double energy = 0.0;
-    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
-      const Eigen::Matrix2d map = edgesOf (x, chart_.mesh.triangles[t]) * rest_.shapes[t].to_unit;
+    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+      const Eigen::Matrix2d map = edgesOf (x, chart.mesh.triangles[t]) * rest.shapes[t].to_unit;
       const double determinant = map.determinant ();
       if (!(determinant > 0.0))
         return std::numeric_limits<double>::infinity ();
       energy +=
-          rest_.shapes[t].area * map.squaredNorm () * (1.0 + 1.0 / (determinant * determinant));
+          rest.shapes[t].area * map.squaredNorm () * (1.0 + 1.0 / (determinant * determinant));
     }
     return energy;
   }
@@ -266,9 +266,9 @@ private:
   Plane gradientOf (const Plane& x) const
   {
     Plane gradient = Plane::Zero (x.rows (), 2);
-    for (std::size_t t = 0; t < rest_.shapes.size (); ++t) {
-      const RestShape& shape = rest_.shapes[t];
-      const Triangle& c = chart_.mesh.triangles[t];
+    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+      const RestShape& shape = rest.shapes[t];
+      const Triangle& c = chart.mesh.triangles[t];
       const Eigen::Matrix2d map = edgesOf (x, c) * shape.to_unit;
       const double determinant = map.determinant (), squares = map.squaredNorm ();
       const double inverse = 1.0 / (determinant * determinant);
@@ -289,7 +289,7 @@ private:
   double reach (const Plane& x, const Plane& direction) const
   {
     double least = std::numeric_limits<double>::infinity ();
-    for (const Triangle& triangle : chart_.mesh.triangles) {
+    for (const Triangle& triangle : chart.mesh.triangles) {
       const Eigen::Matrix2d e = edgesOf (x, triangle), d = edgesOf (direction, triangle);
       // Area a t^2 + b t + c, positive at 0.
       const double a = d.determinant (), c = e.determinant ();
@@ -307,11 +307,6 @@ private:
     }
     return least;
   }
-
-  const MeshPiece& chart_;
-  const RestShapes& rest_;
-  const DescentLimits& limits_;
-  Cholesky solver_;
 };
 
 // Exact arithmetic has no NaN.
@@ -327,7 +322,7 @@ void
 descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
                    const RunContext& run, std::vector<Eigen::Vector2d>& uv)
 {
-  Descent (chart, rest, limits).run (run, uv);
+  Descent{chart, rest, limits}.run (run, uv);
 }
 
 bool

@@ -13,11 +13,9 @@ areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
              const RunContext& run)
 {
   std::vector<Eigen::Vector3d> vectors (mesh.triangles.size ());
-  parallelRanges (run, vectors.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const Triangle& corners = mesh.triangles[t];
-      vectors[t] = areaVector (positions[corners[0]], positions[corners[1]], positions[corners[2]]);
-    }
+  parallelPoints (run, vectors.size (), [&] (Index t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    vectors[t] = areaVector (positions[a], positions[b], positions[c]);
   });
   return vectors;
 }

@@ -31,16 +31,6 @@ checkMesh (const std::vector<Eigen::Vector3d>& positions, const std::vector<Tria
   return {};
 }
 
-Problem
-checkTextureOptions (const TextureOptions& options)
-{
-  if (!(options.largest_stretch >= 1.0))
-    return {RunStatus::INVALID_OPTION, "the largest stretch of a chart must be 1 or more"};
-  if (options.threads < 0)
-    return {RunStatus::INVALID_OPTION, "the number of threads must be 0 or more"};
-  return {};
-}
-
 // Scaled by a power of two to about 1, if there are triangles: squares and cubes of lengths are finite
 // then. Points without a triangle stay as they are.
 std::vector<Eigen::Vector3d>
@@ -63,14 +53,13 @@ void
 takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std::size_t triangles,
                  TextureCoordinates& result)
 {
-  std::vector<Index> first (points + 1, 0); // first coordinate of each point
-  for (const ChartLayout& chart : charts)
-    for (const Index p : chart.points)
-      ++first[p + 1];
-  for (std::size_t p = 0; p < points; ++p)
-    first[p + 1] += first[p];
-  result.coordinates.resize (first.back ());
-  result.points.resize (first.back ());
+  CsrLists of_point = makeCsrLists (points, [&charts] (const auto& emit) {
+    for (const ChartLayout& chart : charts)
+      for (const Index p : chart.points)
+        emit (p, p);
+  });
+  result.points = std::move (of_point.ids);
+  result.coordinates.resize (result.points.size ());
   result.corners.resize (triangles);
   result.charts.resize (triangles);
   for (std::size_t c = 0; c < charts.size (); ++c) {
@@ -78,10 +67,9 @@ takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std
     std::vector<Index> numbers;
     numbers.reserve (chart.points.size ());
     for (std::size_t i = 0; i < chart.points.size (); ++i) {
-      const Index number = first[chart.points[i]]++;
-      numbers.push_back (number);
-      result.points[number] = chart.points[i];
-      result.coordinates[number] = chart.uv[i].cast<float> ().cwiseMax (0.0F).cwiseMin (1.0F);
+      numbers.push_back (of_point.offsets[chart.points[i]]++);
+      result.coordinates[numbers.back ()] =
+          chart.uv[i].cast<float> ().cwiseMax (0.0F).cwiseMin (1.0F);
     }
     for (std::size_t i = 0; i < chart.triangles.size (); ++i) {
       const Index t = chart.triangles[i];
@@ -113,8 +101,10 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
                         const std::vector<Triangle>& triangles, const TextureOptions& options,
                         const RunContext& run, TextureCoordinates& result)
 {
-  if (Problem problem = checkTextureOptions (options))
-    return problem;
+  if (!(options.largest_stretch >= 1.0))
+    return {RunStatus::INVALID_OPTION, "the largest stretch of a chart must be 1 or more"};
+  if (options.threads < 0)
+    return {RunStatus::INVALID_OPTION, "the number of threads must be 0 or more"};
   if (Problem problem = checkMesh (positions, triangles))
     return problem;
   TriangleMesh mesh;
