@@ -29,21 +29,13 @@ using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Polygons = std::vector<pcl::Vertices>;
 using Triangles = std::set<std::array<pcl::index_t, 3>>;
 
-class FloaterClass : public testing::Test
-{
-};
-
 /// Points of a surface; fields other than x, y and z have the default values of PointT.
 template <typename PointT>
 typename pcl::PointCloud<PointT>::Ptr
 makeCloud (SurfaceKind kind, std::size_t points)
 {
-  SurfaceSpec spec;
-  spec.kind = kind;
-  spec.points = points;
-  spec.seed = SEED;
   typename pcl::PointCloud<PointT>::Ptr cloud (new pcl::PointCloud<PointT>);
-  for (const Eigen::Vector3d& position : generateSurface (spec)) {
+  for (const Eigen::Vector3d& position : generateSurface ({kind, points, SEED})) {
     PointT point;
     point.getVector3fMap () = position.cast<float> ();
     cloud->push_back (point);
@@ -89,7 +81,7 @@ expectDisc (const Triangles& triangles, std::size_t points, std::size_t border)
   for (const auto& [a, b, c] : triangles)
     corners.push_back ({static_cast<std::uint32_t> (a), static_cast<std::uint32_t> (b),
                         static_cast<std::uint32_t> (c)});
-  const samples::Topology topology = samples::topologyOf (corners);
+  const samples::MeshTopology topology = samples::topologyOf (corners);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, points);
   EXPECT_EQ (topology.euler, 1);

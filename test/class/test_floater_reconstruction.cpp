@@ -22,7 +22,7 @@ namespace {
 constexpr float NOWHERE = std::numeric_limits<float>::quiet_NaN ();
 
 // Each class of ours in the place of PCL's: with the header, the points and all of the mesh.
-TEST_F (FloaterClass, IsDropInThroughTheBaseClasses)
+TEST (FloaterClass, IsDropInThroughTheBaseClasses)
 {
   using Mesher = pcl::FloaterMeshConstruction<pcl::PointXYZ>;
   const Cloud::Ptr cloud = heightField ();
@@ -66,7 +66,7 @@ TEST_F (FloaterClass, IsDropInThroughTheBaseClasses)
 }
 
 template <typename PointT>
-class FloaterClassOf : public FloaterClass
+class FloaterClassOf : public testing::Test
 {
 };
 
@@ -96,7 +96,7 @@ TYPED_TEST (FloaterClassOf, IsInstantiatedAndKeepsAllFields)
   EXPECT_EQ (mesh.cloud.data, whole.data);
 }
 
-TEST_F (FloaterClass, IndicesSelectAndPolygonsCountInTheWholeCloud)
+TEST (FloaterClass, IndicesSelectAndPolygonsCountInTheWholeCloud)
 {
   // Every third point is on the surface; the others are a heap beside it.
   const Cloud::Ptr surface = heightField ();
@@ -139,7 +139,7 @@ TEST_F (FloaterClass, IndicesSelectAndPolygonsCountInTheWholeCloud)
   EXPECT_EQ (repeated->size (), n + 50);
 }
 
-TEST_F (FloaterClass, RefusesNoInputAndIndicesOutsideTheCloud)
+TEST (FloaterClass, RefusesNoInputAndIndicesOutsideTheCloud)
 {
   Floater floater;
   expectFailure (floater, RunStatus::NO_INPUT);
@@ -165,7 +165,7 @@ TEST_F (FloaterClass, RefusesNoInputAndIndicesOutsideTheCloud)
   EXPECT_TRUE (floater.getBoundaryLoop ().empty ());
 }
 
-TEST_F (FloaterClass, TellsWhichPointsAreLeftOut)
+TEST (FloaterClass, TellsWhichPointsAreLeftOut)
 {
   const Cloud::Ptr clean = heightField ();
   Floater floater;
@@ -197,7 +197,7 @@ TEST_F (FloaterClass, TellsWhichPointsAreLeftOut)
   EXPECT_EQ (floater.getParameters ()[n + 1], floater.getParameters ()[17]);
 }
 
-TEST_F (FloaterClass, ServesOneCloudAfterAnother)
+TEST (FloaterClass, ServesOneCloudAfterAnother)
 {
   const Cloud::Ptr large = heightField (700);
   const Cloud::Ptr small = makeCloud<pcl::PointXYZ> (SurfaceKind::HEMISPHERE, 300);
@@ -243,7 +243,7 @@ public:
   mutable std::size_t queries = 0;
 };
 
-TEST_F (FloaterClass, AsksTheUsersSearchMethod)
+TEST (FloaterClass, AsksTheUsersSearchMethod)
 {
   const Cloud::Ptr cloud = heightField ();
   pcl::IndicesPtr indices (new pcl::Indices);
@@ -276,7 +276,7 @@ TEST_F (FloaterClass, AsksTheUsersSearchMethod)
   EXPECT_EQ (counting->queries, indices->size () - 1);
 }
 
-TEST_F (FloaterClass, CallsBackAndCanBeCancelled)
+TEST (FloaterClass, CallsBackAndCanBeCancelled)
 {
   std::vector<Stage> stages;
   double done = -1.0;
@@ -311,7 +311,7 @@ TEST_F (FloaterClass, CallsBackAndCanBeCancelled)
   pcl::console::setVerbosityLevel (level);
 }
 
-TEST_F (FloaterClass, EightObjectsInEightThreads)
+TEST (FloaterClass, EightObjectsInEightThreads)
 {
   const auto run = [] (std::size_t i) {
     constexpr SurfaceKind KINDS[] = {SurfaceKind::HEIGHT_FIELD, SurfaceKind::FINGER,
@@ -352,7 +352,7 @@ static_assert (!std::is_destructible_v<ReconstructionState> &&
                    !std::is_default_constructible_v<ReconstructionState>,
                "the state is a part of an object");
 
-TEST_F (FloaterClass, ACopyHasOptionsAndResultsOfItsOwn)
+TEST (FloaterClass, ACopyHasOptionsAndResultsOfItsOwn)
 {
   Floater floater;
   const Cloud::Ptr cloud = heightField ();

@@ -67,7 +67,7 @@ choices ()
            [] (const Class& floater) { return floater.getDiscOptions ().as_published ? 1 : -1; }}};
 }
 
-TEST_F (FloaterClass, ASetterChangesItsOwnParameter)
+TEST (FloaterClass, ASetterChangesItsOwnParameter)
 {
   const std::vector<Choice> all = choices ();
   for (const Choice& chosen : all) {
@@ -83,7 +83,7 @@ TEST_F (FloaterClass, ASetterChangesItsOwnParameter)
   }
 }
 
-TEST_F (FloaterClass, ParametersChangeTheRun)
+TEST (FloaterClass, ParametersChangeTheRun)
 {
   Class floater;
   const Cloud::Ptr cloud = heightField ();
@@ -103,7 +103,7 @@ TEST_F (FloaterClass, ParametersChangeTheRun)
   EXPECT_EQ (floater.getStatistics ().iterations_u, 20U);
 }
 
-TEST_F (FloaterClass, WrongValuesAreRefusedNotReplaced)
+TEST (FloaterClass, WrongValuesAreRefusedNotReplaced)
 {
   Class floater;
   floater.setInputCloud (heightField (100));
@@ -127,7 +127,7 @@ TEST_F (FloaterClass, WrongValuesAreRefusedNotReplaced)
 }
 
 // The loop is one of the options of a disc; the later of its two setters counts.
-TEST_F (FloaterClass, AGivenLoopIsAnOptionOfADisc)
+TEST (FloaterClass, AGivenLoopIsAnOptionOfADisc)
 {
   Floater floater;
   floater.setInputCloud (heightField ());

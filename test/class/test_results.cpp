@@ -31,7 +31,16 @@ positionsOf (const Cloud& cloud)
   return positions;
 }
 
-TEST_F (FloaterClass, MeshConstructionPassesOnWhatItIsGiven)
+// As long as twice the area of the triangle.
+template <typename PointT>
+Eigen::Vector3f
+normalOf (const pcl::PointCloud<PointT>& cloud, const pcl::Vertices& triangle)
+{
+  const auto at = [&] (std::size_t i) { return cloud[triangle.vertices[i]].getVector3fMap (); };
+  return (at (1) - at (0)).cross (at (2) - at (0));
+}
+
+TEST (FloaterClass, MeshConstructionPassesOnWhatItIsGiven)
 {
   const Cloud::Ptr cloud = heightField ();
   pcl::FloaterMeshConstruction<pcl::PointXYZ> mesher;
@@ -78,7 +87,7 @@ static_assert (static_cast<int> (State::NONE) == static_cast<int> (Greedy::NONE)
                "the states are those of PCL's class");
 
 // Two sheets far apart, some of the points not selected, one without a place, and one twice.
-TEST_F (FloaterClass, TellsWhatEachPointIsInTheMesh)
+TEST (FloaterClass, TellsWhatEachPointIsInTheMesh)
 {
   constexpr std::size_t SHEET = 500, NOT_FINITE = 1000, TWICE = 1001, UNSELECTED = 1002;
   const Cloud::Ptr cloud = heightField (SHEET);
@@ -141,7 +150,7 @@ bodyWithInwardNormals ()
   return cloud;
 }
 
-TEST_F (FloaterClass, TakesTheNormalsOfPointsIfAskedTo)
+TEST (FloaterClass, TakesTheNormalsOfPointsIfAskedTo)
 {
   const NormalCloud::Ptr cloud = bodyWithInwardNormals ();
   pcl::FloaterReconstruction<pcl::PointNormal> floater;
@@ -152,11 +161,8 @@ TEST_F (FloaterClass, TakesTheNormalsOfPointsIfAskedTo)
     floater.setUseInputNormals (use_normals);
     floater.reconstruct (polygons);
     EXPECT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
-    const pcl::Indices& t = polygons.front ().vertices;
-    const Eigen::Vector3f a = (*cloud)[t[0]].getVector3fMap (),
-                          b = (*cloud)[t[1]].getVector3fMap (),
-                          c = (*cloud)[t[2]].getVector3fMap ();
-    return (b - a).cross (c - a).dot (a) > 0.0F;
+    const auto a = (*cloud)[polygons.front ().vertices[0]].getVector3fMap ();
+    return normalOf (*cloud, polygons.front ()).dot (a) > 0.0F;
   };
   EXPECT_TRUE (faces_outwards (Facing::AUTO, false));
   EXPECT_FALSE (faces_outwards (Facing::NORMALS, false));
@@ -175,7 +181,7 @@ TEST_F (FloaterClass, TakesTheNormalsOfPointsIfAskedTo)
 
 // The neighbours and planes of PCL give the mesh that the core's own give, but for ties; of
 // selected points, with one that is not finite, and with a search method of the user's as well.
-TEST_F (FloaterClass, TheMethodOfTheReportTakesPclsOwnParts)
+TEST (FloaterClass, TheMethodOfTheReportTakesPclsOwnParts)
 {
   const Cloud::Ptr cloud = heightField (3000);
   const pcl::IndicesPtr indices (new pcl::Indices);
@@ -209,7 +215,7 @@ TEST_F (FloaterClass, TheMethodOfTheReportTakesPclsOwnParts)
   EXPECT_GE (same * 100, by_pcl.size () * 99);
 }
 
-TEST_F (FloaterClass, NormalsOfTheMeshAreFieldsOfItsCloud)
+TEST (FloaterClass, NormalsOfTheMeshAreFieldsOfItsCloud)
 {
   const Cloud::Ptr cloud = heightField ();
   cloud->points[7].x = std::nanf (""); // in no triangle, as the first point, which is not selected
@@ -248,7 +254,7 @@ TEST_F (FloaterClass, NormalsOfTheMeshAreFieldsOfItsCloud)
   EXPECT_TRUE (floater.getNormals ().empty ());
 }
 
-TEST_F (FloaterClass, NormalsOfTheMeshReplaceThoseOfTheInput)
+TEST (FloaterClass, NormalsOfTheMeshReplaceThoseOfTheInput)
 {
   const NormalCloud::Ptr cloud = bodyWithInwardNormals ();
   pcl::FloaterReconstruction<pcl::PointNormal> floater;
@@ -273,7 +279,7 @@ TEST_F (FloaterClass, NormalsOfTheMeshReplaceThoseOfTheInput)
 }
 
 // Points that are not selected, or not finite, have no texture coordinates.
-TEST_F (FloaterClass, TextureCoordinatesAreThoseOfTheMesh)
+TEST (FloaterClass, TextureCoordinatesAreThoseOfTheMesh)
 {
   const auto make = [] (SurfaceKind kind) {
     const Cloud::Ptr cloud = makeCloud<pcl::PointXYZ> (kind, 1500);
@@ -313,7 +319,7 @@ TEST_F (FloaterClass, TextureCoordinatesAreThoseOfTheMesh)
   EXPECT_TRUE (floater.getTextureCoordinates ().coordinates.empty ());
 }
 
-TEST_F (FloaterClass, TextureFailuresAreThoseOfTheRun)
+TEST (FloaterClass, TextureFailuresAreThoseOfTheRun)
 {
   Class floater;
   floater.setInputCloud (makeCloud<pcl::PointXYZ> (SurfaceKind::SPHERE, 600));
@@ -339,7 +345,7 @@ TEST_F (FloaterClass, TextureFailuresAreThoseOfTheRun)
 }
 
 // The hills lie on their backs, as a sensor below them sees them; the output has the rows of the cloud.
-TEST_F (FloaterClass, TakesTheSensorOriginAndTheRowsOfACloud)
+TEST (FloaterClass, TakesTheSensorOriginAndTheRowsOfACloud)
 {
   const Cloud::Ptr cloud = heightField ();
   cloud->width = 50;
@@ -356,10 +362,7 @@ TEST_F (FloaterClass, TakesTheSensorOriginAndTheRowsOfACloud)
     ASSERT_EQ (floater.getStatus (), RunStatus::SUCCESS) << floater.getMessage ();
     EXPECT_EQ (points.width, 50U);
     EXPECT_EQ (points.height, 10U);
-    const pcl::Indices& t = polygons.front ().vertices;
-    const Eigen::Vector3f a = points[t[0]].getVector3fMap (), b = points[t[1]].getVector3fMap (),
-                          c = points[t[2]].getVector3fMap ();
-    EXPECT_GT ((b - a).cross (c - a).z () * height, 0.0F);
+    EXPECT_GT (normalOf (points, polygons.front ()).z () * height, 0.0F);
   }
 }
 

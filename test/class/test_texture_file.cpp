@@ -10,7 +10,7 @@
 
 namespace pcl::floater {
 namespace {
-TEST_F (FloaterClass, TextureMeshComesBackFromAFile)
+TEST (FloaterClass, TextureMeshComesBackFromAFile)
 {
   pcl::FloaterReconstruction<pcl::PointNormal> floater;
   floater.setInputCloud (makeCloud<pcl::PointNormal> (SurfaceKind::SPHERE, 700));

@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Topology and geometry of a mesh, computed without any code of the library.
+// Topology and folds of a mesh, computed without any code of the library.
 #pragma once
 
 #include "core/types.h"
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,7 +16,7 @@ namespace pcl::floater::samples {
 using Positions = std::vector<Eigen::Vector3d>;
 
 /// Topology of a mesh, counted from its edges.
-struct Topology
+struct MeshTopology
 {
   bool manifold = true; ///< edges with one or two oppositely directed triangles, one fan per vertex
   std::size_t vertices = 0;
@@ -28,10 +25,10 @@ struct Topology
   std::vector<std::vector<Index>> loops;
 };
 
-inline Topology
+inline MeshTopology
 topologyOf (const std::vector<Triangle>& triangles)
 {
-  Topology topology;
+  MeshTopology topology;
   std::map<std::pair<Index, Index>, std::size_t> directed;
   std::map<Index, Index> parent;                       // of components
   std::map<Index, std::map<Index, Index>> next_in_fan; // by vertex: edge to edge, anti-clockwise
@@ -94,31 +91,6 @@ topologyOf (const std::vector<Triangle>& triangles)
   return topology;
 }
 
-/// Mean distance of each point to its six nearest, by brute force. Equal points do not count.
-inline std::vector<double>
-spacingByBruteForce (const Positions& points)
-{
-  constexpr std::size_t NEAREST = 6;
-  std::vector<double> spacing;
-  for (const Eigen::Vector3d& p : points) {
-    std::array<double, NEAREST> nearest;
-    nearest.fill (std::numeric_limits<double>::infinity ());
-    for (const Eigen::Vector3d& q : points) {
-      double sqr_distance = (q - p).squaredNorm ();
-      if (sqr_distance == 0.0 || sqr_distance >= nearest.back ())
-        continue;
-      for (double& kept : nearest)
-        if (sqr_distance < kept)
-          std::swap (sqr_distance, kept);
-    }
-    double sum = 0.0;
-    for (const double sqr : nearest)
-      sum += std::sqrt (sqr);
-    spacing.push_back (sum / NEAREST);
-  }
-  return spacing;
-}
-
 /// Edges whose two triangles are more than 120 degrees apart.
 inline std::vector<std::array<Index, 2>>
 foldedEdges (const std::vector<Triangle>& triangles, const Positions& points)
@@ -139,38 +111,6 @@ foldedEdges (const std::vector<Triangle>& triangles, const Positions& points)
     }
   }
   return folded;
-}
-
-/// Sizes of a mesh.
-struct Geometry
-{
-  double area = 0.0;
-  double mean_edge = 0.0;                                ///< in spacings at its ends
-  double longest_edge = 0.0;                             ///< in spacings at its ends
-  Eigen::Vector3d longest_at = Eigen::Vector3d::Zero (); ///< middle of that edge
-};
-
-inline Geometry
-geometryOf (const std::vector<Triangle>& triangles, const Positions& points)
-{
-  Geometry geometry;
-  const std::vector<double> spacing = spacingByBruteForce (points);
-  std::set<std::pair<Index, Index>> edges;
-  for (const Triangle& t : triangles) {
-    geometry.area +=
-        0.5 * (points[t[1]] - points[t[0]]).cross (points[t[2]] - points[t[0]]).norm ();
-    for (std::size_t i = 0; i < 3; ++i)
-      edges.insert (std::minmax (t[i], t[(i + 1) % 3]));
-  }
-  for (const auto& [a, b] : edges) {
-    const double length = (points[a] - points[b]).norm () / (0.5 * (spacing[a] + spacing[b]));
-    geometry.mean_edge += length / static_cast<double> (edges.size ());
-    if (length > geometry.longest_edge) {
-      geometry.longest_edge = length;
-      geometry.longest_at = 0.5 * (points[a] + points[b]);
-    }
-  }
-  return geometry;
 }
 
 } // namespace pcl::floater::samples

@@ -1,24 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sheets with a known border, and other helpers for the tests of the stages.
+// Sheets with a known border, other clouds, and helpers for the tests of the stages.
 #pragma once
 
 #include "core/geometry.h"
 #include "core/types.h"
 #include "local/local_geometry.h"
 #include "mesh_oracle.h"
+#include "points/kd_tree.h"
 #include "points/neighbors.h"
+#include "points/points.h"
 #include "surfaces.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
 #include <Eigen/Geometry>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -47,13 +53,21 @@ permutation (std::size_t count, std::uint64_t seed)
   return order;
 }
 
+/// Each coordinate from 0 to 1.
+inline Eigen::Vector3d
+uniformVector (RandomStream& random)
+{
+  const double x = random.uniform (), y = random.uniform ();
+  return {x, y, random.uniform ()};
+}
+
 inline Positions
 randomPoints (std::size_t count, std::uint64_t seed)
 {
   RandomStream random (seed);
   Positions points (count);
   for (Eigen::Vector3d& p : points)
-    p = {random.uniform (), random.uniform (), random.uniform ()};
+    p = uniformVector (random);
   return points;
 }
 
@@ -162,6 +176,24 @@ makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int th
   return made;
 }
 
+/// The nearest of each point, so many.
+inline CsrLists
+nearestOf (const Positions& positions, int count)
+{
+  return findNearestNeighbors (positions, Rows::all (positions.size ()), count, 1);
+}
+
+/// Of some directions from a point, the largest angle between neighbours.
+inline double
+widestGap (std::vector<double> angles)
+{
+  std::sort (angles.begin (), angles.end ());
+  double widest = angles.front () + 2.0 * PI - angles.back ();
+  for (std::size_t i = 1; i < angles.size (); ++i)
+    widest = std::max (widest, angles[i] - angles[i - 1]);
+  return widest;
+}
+
 /// A cycle that begins at its smallest member and goes on to the smaller of the two next to it.
 inline std::vector<Index>
 canonicalCycle (std::vector<Index> cycle)
@@ -191,6 +223,15 @@ inline Input
 asInput (const Positions& positions, NeighborSearch* search = nullptr)
 {
   return {positions, indices (positions.size ()), positions.size (), search};
+}
+
+/// The mesh of points; a run without success is a failure of the test.
+inline Result
+meshOf (const Positions& positions, const Options& options = {})
+{
+  Result result = reconstruct (asInput (positions), options);
+  EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+  return result;
 }
 
 /// The default options, but always with the method of TW 385.
@@ -225,14 +266,146 @@ warns (const Report& report, const std::string& words)
       [&words] (const std::string& warning) { return warning.find (words) != std::string::npos; });
 }
 
-/// A view from a place that is given.
-inline Options
-seenFrom (const Eigen::Vector3d& viewpoint)
+const Eigen::Vector3d ON_A_MAP (5e5, 5.5e6, 300.0);
+
+/// \param noise in spacings
+inline Positions
+surface (SurfaceKind kind, std::size_t points, double noise = 0.0, double density_ratio = 1.0)
 {
-  Options options;
-  options.view.use = ViewUse::GIVEN;
-  options.view.viewpoint = {viewpoint.x (), viewpoint.y (), viewpoint.z ()};
-  return options;
+  return generateSurface ({kind, points, 1, density_ratio, noise});
+}
+
+inline Positions
+placed (Positions cloud, const Eigen::Vector3d& place, double scale = 1.0)
+{
+  for (Eigen::Vector3d& p : cloud)
+    p = place + scale * p;
+  return cloud;
+}
+
+inline Positions
+joined (Positions a, const Positions& b)
+{
+  a.insert (a.end (), b.begin (), b.end ());
+  return a;
+}
+
+/// Points of a grid in z = 0, `spacing` apart, each moved by up to `jitter` spacings in x and y.
+inline Positions
+jitteredGrid (int columns, int rows, double spacing, double jitter, RandomStream& random)
+{
+  Positions points;
+  for (int x = 0; x < columns; ++x)
+    for (int y = 0; y < rows; ++y) {
+      const double dx = jitter * random.uniform (), dy = jitter * random.uniform ();
+      points.emplace_back (spacing * (x + dx), spacing * (y + dy), 0.0);
+    }
+  return points;
+}
+
+inline Eigen::Vector3d
+normalVector (RandomStream& random)
+{
+  const double x = random.normal (), y = random.normal ();
+  return {x, y, random.normal ()};
+}
+
+inline Points
+workingPoints (const Positions& positions)
+{
+  return makePoints (positions, indices (positions.size ()), 1);
+}
+
+/// The k nearest points, nearest first, by trying all.
+inline std::vector<Neighbor>
+nearestByTryingAll (const Positions& points, const Eigen::Vector3d& query, std::size_t k)
+{
+  std::vector<Neighbor> all;
+  for (Index p = 0; p < points.size (); ++p)
+    all.push_back ({(points[p] - query).squaredNorm (), p});
+  const std::size_t count = std::min (k, all.size ());
+  std::partial_sort (all.begin (), all.begin () + static_cast<std::ptrdiff_t> (count), all.end ());
+  all.resize (count);
+  return all;
+}
+
+/// The fixed points, then of the darts thrown those at least 0.8 away from all before them.
+/// If they are thrown until none fits, about one for each unit of area stays.
+inline Positions
+throwDarts (const Positions& fixed, double area,
+            const std::function<Eigen::Vector3d (RandomStream&)>& throwDart, std::uint64_t seed)
+{
+  static constexpr double DISTANCE = 0.8, DARTS_PER_POINT = 25.0;
+  Positions kept;
+  std::unordered_map<long, Positions> cells; // some share a key by chance, which only costs time
+  const auto keyOf = [] (const Eigen::Vector3d& p) {
+    const Eigen::Array3d at = (p / DISTANCE).array ().floor ();
+    return static_cast<long> (at.x ()) + 10007 * static_cast<long> (at.y ()) +
+           100140049 * static_cast<long> (at.z ());
+  };
+  const auto keep = [&] (const Eigen::Vector3d& p) {
+    kept.push_back (p);
+    cells[keyOf (p)].push_back (p);
+  };
+  const auto isNear = [&] (const Eigen::Vector3d& p, const Eigen::Vector3d& in_cell) {
+    const auto cell = cells.find (keyOf (in_cell));
+    return cell != cells.end () &&
+           std::any_of (cell->second.begin (), cell->second.end (),
+                        [&p] (const Eigen::Vector3d& q) { return (p - q).norm () < DISTANCE; });
+  };
+  std::for_each (fixed.begin (), fixed.end (), keep);
+  RandomStream random (seed);
+  for (int dart = 0; dart < DARTS_PER_POINT * area; ++dart) {
+    const Eigen::Vector3d p = throwDart (random);
+    bool fits = true;
+    for (int cell = 0; fits && cell < 27; ++cell)
+      fits = !isNear (p, p + DISTANCE *
+                                 Eigen::Vector3d (cell % 3 - 1, cell / 3 % 3 - 1, cell / 9 - 1));
+    if (fits)
+      keep (p);
+  }
+  return kept;
+}
+
+/// Area inside the first outline and outside the others.
+inline double
+areaOf (const std::vector<Outline>& outlines)
+{
+  double area = 0.0;
+  for (const Outline& outline : outlines) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < outline.size (); ++i) {
+      const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size ()];
+      twice += a.x () * b.y () - a.y () * b.x ();
+    }
+    area += (&outline == &outlines.front () ? 0.5 : -0.5) * std::abs (twice);
+  }
+  return area;
+}
+
+/// A random point inside the first outline and outside the others.
+inline Eigen::Vector2d
+randomInside (const std::vector<Outline>& outlines, RandomStream& random)
+{
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : outlines.front ())
+    box.extend (p);
+  for (;;) {
+    const double x = random.uniform (), y = random.uniform ();
+    const Eigen::Vector2d p = box.min () + box.sizes ().cwiseProduct (Eigen::Vector2d (x, y));
+    bool within = isInside (outlines.front (), p);
+    for (std::size_t hole = 1; within && hole < outlines.size (); ++hole)
+      within = !isInside (outlines[hole], p);
+    if (within)
+      return p;
+  }
+}
+
+inline Outline
+rectangle (double width, double height, const Eigen::Vector2d& corner = {0.0, 0.0})
+{
+  return {corner, corner + Eigen::Vector2d (width, 0.0), corner + Eigen::Vector2d (width, height),
+          corner + Eigen::Vector2d (0.0, height)};
 }
 
 } // namespace pcl::floater::samples

@@ -35,7 +35,7 @@ struct DepthNoise
   double quantum = 0.0; ///< step of the inverse depth, as of a camera with two lenses
 };
 
-struct Ray
+struct ScanRay
 {
   Eigen::Vector3d from, along; ///< of unit length
 };
@@ -63,13 +63,13 @@ struct Scene
 };
 
 inline double
-depthOf (const Plane& plane, const Ray& ray)
+depthOf (const Plane& plane, const ScanRay& ray)
 {
   return (plane.offset - plane.normal.dot (ray.from)) / plane.normal.dot (ray.along);
 }
 
 inline double
-depthOf (const Thing& thing, const Ray& ray)
+depthOf (const Thing& thing, const ScanRay& ray)
 {
   Eigen::Vector3d offset = ray.from - thing.place, along = ray.along;
   if (thing.is_post)
@@ -79,12 +79,14 @@ depthOf (const Thing& thing, const Ray& ray)
   return root > 0.0 ? (-b - std::sqrt (root)) / a : -1.0;
 }
 
-/// Adds what the rays meet first.
-inline void
-castRays (const Scene& scene, const std::vector<Ray>& rays, DepthNoise noise, RandomStream& random,
-          Scan& scan)
+/// What the rays meet first, as seen from where the first one begins.
+inline Scan
+castRays (const Scene& scene, const std::vector<ScanRay>& rays, DepthNoise noise,
+          RandomStream& random)
 {
-  for (const Ray& ray : rays) {
+  Scan scan;
+  scan.viewpoint = rays.front ().from;
+  for (const ScanRay& ray : rays) {
     double nearest = std::numeric_limits<double>::infinity ();
     int object = 0, hit = -1;
     const auto meet = [&] (const auto& surface) {
@@ -105,13 +107,14 @@ castRays (const Scene& scene, const std::vector<Ray>& rays, DepthNoise noise, Ra
     scan.points.push_back (ray.from + depth * ray.along);
     scan.object.push_back (hit);
   }
+  return scan;
 }
 
 /// Rays on cones around the upright. The lowest elevation and the step between cones, in degrees.
-inline std::vector<Ray>
+inline std::vector<ScanRay>
 raysInRings (const Eigen::Vector3d& from, int rings, int in_ring, double lowest, double step)
 {
-  std::vector<Ray> rays;
+  std::vector<ScanRay> rays;
   for (int ring = 0; ring < rings; ++ring)
     for (int i = 0; i < in_ring; ++i) {
       const double azimuth = 2.0 * PI * i / in_ring, elevation = (lowest + step * ring) * DEGREE;
@@ -123,7 +126,7 @@ raysInRings (const Eigen::Vector3d& from, int rings, int in_ring, double lowest,
 }
 
 /// \param look direction of a camera
-inline std::vector<Ray>
+inline std::vector<ScanRay>
 raysOf (Raster raster, const Eigen::Vector3d& place, const Eigen::Vector3d& look)
 {
   if (raster == Raster::RINGS)
@@ -132,7 +135,7 @@ raysOf (Raster raster, const Eigen::Vector3d& place, const Eigen::Vector3d& look
     return raysInRings (place, 130, 360, -50.0, 1.0);
   const Eigen::Vector3d right = look.cross (Eigen::Vector3d::UnitZ ()).normalized ();
   const Eigen::Vector3d up = right.cross (look);
-  std::vector<Ray> rays;
+  std::vector<ScanRay> rays;
   if (raster == Raster::CAMERA)
     for (int i = 0; i < 170; ++i)
       for (int j = 0; j < 120; ++j)
@@ -161,9 +164,8 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
                         1.2 + 0.6 * random.uniform ());
   const Vector3d target (3.8 + 0.4 * random.uniform (), 3.8 + 0.4 * random.uniform (), 0.6);
   const Vector3d look = (target - place).normalized ();
-  Scan scan;
+  Scan scan = castRays (room, raysOf (raster, place, look), noise, random);
   scan.is_far = raster == Raster::PARALLEL || raster == Raster::LINES;
-  castRays (room, raysOf (raster, place, look), noise, random, scan);
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), random.normal ())
           .normalized ();
@@ -175,10 +177,10 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
 }
 
 /// Rays of two turning prisms about +x, from the origin: a rosette of 140 leaves, whose curves cross.
-inline std::vector<Ray>
+inline std::vector<ScanRay>
 raysInRosette (int count)
 {
-  std::vector<Ray> rays;
+  std::vector<ScanRay> rays;
   for (int i = 0; i < count; ++i) {
     const double turn = 2.0 * PI * 20.0 * i / count;
     const double y = 0.166 * (std::cos (7.0 * turn) + std::cos (-4.577 * turn));
@@ -212,9 +214,9 @@ scanYard (DepthNoise noise, std::uint64_t seed)
     return least + (most - least) * random.uniform ();
   };
   const Eigen::Vector3d slope (between (-0.05, 0.05), between (-0.05, 0.05), 0.0);
-  Scene yard{{{Eigen::Vector3d::UnitZ () - slope, 0.0}}, {}, {}};
-  yard.box.extend (Eigen::Vector3d (-40.0, -40.0, -40.0))
-      .extend (Eigen::Vector3d (40.0, 40.0, 8.0));
+  Scene yard{{{Eigen::Vector3d::UnitZ () - slope, 0.0}},
+             {},
+             {Eigen::Vector3d (-40.0, -40.0, -40.0), Eigen::Vector3d (40.0, 40.0, 8.0)}};
   for (int i = 0; i < 8; ++i) {
     const double angle = between (0.0, 2.0 * PI), distance = between (5.0, 25.0);
     Eigen::Vector3d foot (distance * std::cos (angle), distance * std::sin (angle), 0.0);
@@ -225,18 +227,25 @@ scanYard (DepthNoise noise, std::uint64_t seed)
       foot.z () += radius;
     yard.things.push_back ({foot, radius, is_post});
   }
-  Scan scan;
-  scan.viewpoint = {between (-2.0, 2.0), between (-2.0, 2.0), between (1.2, 2.6)};
-  castRays (yard, raysInRings (scan.viewpoint, 32, 1800, -25.0, 35.0 / 31.0), noise, random, scan);
-  return scan;
+  const Eigen::Vector3d place{between (-2.0, 2.0), between (-2.0, 2.0), between (1.2, 2.6)};
+  return castRays (yard, raysInRings (place, 32, 1800, -25.0, 35.0 / 31.0), noise, random);
+}
+
+/// A view from a place that is given.
+inline Options
+seenFrom (const Eigen::Vector3d& viewpoint)
+{
+  Options options;
+  options.view.use = ViewUse::GIVEN;
+  options.view.viewpoint = {viewpoint.x (), viewpoint.y (), viewpoint.z ()};
+  return options;
 }
 
 /// The mesh of a scan as its sensor saw it, which faces the sensor.
 inline Result
 viewOf (const Scan& scan, const Options& options)
 {
-  Result result = reconstruct (scan.points, options);
-  EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+  Result result = meshOf (scan.points, options);
   EXPECT_TRUE (result.report.is_view);
   EXPECT_EQ (result.report.is_far_view, scan.is_far);
   std::size_t turned = 0;

@@ -9,7 +9,6 @@
 // surface is that of a good mesh; "ragged" sheets have none.
 #pragma once
 
-#include "even_points.h"
 #include "samples.h"
 #include "surfaces.h"
 

@@ -6,7 +6,7 @@
 // being skipped.
 #include <pcl/surface/floater/reconstruct.h>
 
-#include "mesh_oracle.h"
+#include "local/planes.h"
 #include "surface_samples.h"
 
 #include <gtest/gtest.h>
@@ -17,9 +17,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::generated;
-using samples::KnownSurface;
-using samples::Positions;
+using namespace samples;
 
 /// A mean edge of an even mesh is a little longer than the mean distance to the six nearest.
 constexpr double LEAST_MEAN_EDGE = 0.85, LARGEST_MEAN_EDGE = 1.25;
@@ -73,11 +71,11 @@ expectPointsUsed (const Result& result, const KnownSurface& surface)
 void
 expectTopology (const Result& result, const KnownSurface& surface)
 {
-  const samples::Topology topology = samples::topologyOf (result.triangles);
+  const MeshTopology topology = topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.components, surface.components);
   EXPECT_EQ (topology.loops.size (), surface.loops);
-  EXPECT_EQ (topology.euler, samples::eulerOf (surface));
+  EXPECT_EQ (topology.euler, eulerOf (surface));
 }
 
 // Number of edges that may be folded: one per 0.8 spacings of the sharp edges of the surface. With
@@ -87,36 +85,51 @@ allowedFolds (const KnownSurface& surface)
 {
   double allowed = surface.sharp_length / 0.8;
   if (!surface.clean.empty ()) {
-    const Result clean = reconstruct (samples::asInput (surface.clean), {});
-    const auto folds = samples::foldedEdges (clean.triangles, surface.points);
+    const Result clean = reconstruct (asInput (surface.clean), {});
+    const auto folds = foldedEdges (clean.triangles, surface.points);
     allowed += static_cast<double> (folds.size ());
   }
   return allowed;
 }
 
+// Mean length of the sides of all triangles, in spacings at their ends, and the sum of their areas.
+std::pair<double, double>
+meanEdgeAndArea (const std::vector<Triangle>& triangles, const Positions& points)
+{
+  const std::vector<float> spacing = localSpacing (points, nearestOf (points, 6), 1);
+  double lengths = 0.0, area = 0.0;
+  for (const Triangle& t : triangles) {
+    area += 0.5 * areaVector (points[t[0]], points[t[1]], points[t[2]]).norm ();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3];
+      lengths += 2.0 * (points[a] - points[b]).norm () / (spacing[a] + spacing[b]);
+    }
+  }
+  return {lengths / (3.0 * static_cast<double> (triangles.size ())), area};
+}
+
 void
 expectGeometry (const Result& result, const KnownSurface& surface, const Case& one)
 {
-  const auto folds = samples::foldedEdges (result.triangles, surface.points);
+  const auto folds = foldedEdges (result.triangles, surface.points);
   EXPECT_LE (static_cast<double> (folds.size ()), allowedFolds (surface))
       << surface.points[folds.front ()[0]].transpose ();
   if (!surface.is_even)
     return;
-  const samples::Geometry geometry = samples::geometryOf (result.triangles, surface.points);
-  EXPECT_GT (geometry.mean_edge, LEAST_MEAN_EDGE);
+  const auto [mean_edge, area] = meanEdgeAndArea (result.triangles, surface.points);
+  EXPECT_GT (mean_edge, LEAST_MEAN_EDGE);
   if (one.holes.policy == HolePolicy::AUTO) {
-    EXPECT_LT (geometry.mean_edge, LARGEST_MEAN_EDGE);
-    EXPECT_LT (geometry.longest_edge, surface.clean.empty () ? LONGEST_EDGE : LONGEST_NOISY_EDGE)
-        << geometry.longest_at.transpose ();
+    EXPECT_LT (mean_edge, LARGEST_MEAN_EDGE);
+    const MeshCheck& check = result.report.check;
+    EXPECT_LT (check.longest_edge, surface.clean.empty () ? LONGEST_EDGE : LONGEST_NOISY_EDGE)
+        << surface.points[check.longest_edge_at[0]].transpose ();
   }
   if (surface.area > 0.0) {
-    EXPECT_NEAR (geometry.area / surface.area, 1.0, one.area_tolerance);
+    EXPECT_NEAR (area / surface.area, 1.0, one.area_tolerance);
   }
 }
 
-class AnyTopology : public testing::TestWithParam<Case>
-{
-};
+using AnyTopology = testing::TestWithParam<Case>;
 
 void
 expectSurface (const Case& one)
@@ -124,7 +137,7 @@ expectSurface (const Case& one)
   const KnownSurface surface = one.make ();
   Options options;
   options.holes = one.holes;
-  const Result result = reconstruct (samples::asInput (surface.points), options);
+  const Result result = reconstruct (asInput (surface.points), options);
   SCOPED_TRACE (std::to_string (surface.points.size ()) + " points, by " +
                 (result.report.topology == Topology::DISC ? "DISC: " : "SURFACE: ") +
                 result.report.topology_reason + warningsOf (result.report));
@@ -151,17 +164,17 @@ TEST_P (AnyTopology, IsTheSurface)
 // A surface without an orientation has no right mesh: it is refused, or cut with a warning.
 TEST (OneSided, IsNeverPassedOffAsRight)
 {
-  const KnownSurface strip = samples::moebiusStrip (1);
+  const KnownSurface strip = moebiusStrip (1);
   for (const Topology method : {Topology::AUTO, Topology::SURFACE}) {
     Options options;
     options.topology = method;
-    const Result result = reconstruct (samples::asInput (strip.points), options);
+    const Result result = reconstruct (asInput (strip.points), options);
     if (result.report.status != RunStatus::SUCCESS) {
       EXPECT_NE (result.report.message.find ("side"), std::string::npos) << result.report.message;
       EXPECT_TRUE (result.triangles.empty ());
       continue;
     }
-    EXPECT_TRUE (samples::topologyOf (result.triangles).manifold);
+    EXPECT_TRUE (topologyOf (result.triangles).manifold);
     const std::string warnings = warningsOf (result.report);
     EXPECT_TRUE (warnings.find ("one side") != std::string::npos ||
                  warnings.find ("one-sided") != std::string::npos ||
@@ -177,9 +190,7 @@ stacked (KnownSurface surface, std::size_t copies, double offset, std::uint64_t 
   RandomStream random (seed);
   const std::size_t n = surface.points.size ();
   for (std::size_t i = 0; i < copies * n; ++i)
-    surface.points.push_back (
-        surface.points[i % n] +
-        offset * Eigen::Vector3d (random.normal (), random.normal (), random.normal ()) / 2.0);
+    surface.points.emplace_back (surface.points[i % n] + 0.5 * offset * normalVector (random));
   surface.sharp_length += 0.002 * static_cast<double> (copies * n); // needles are folded at times
   surface.is_even = false;
   return surface;
@@ -197,7 +208,7 @@ filled (KnownSurface surface, std::size_t loops)
 KnownSurface
 twoSizes ()
 {
-  return samples::sheetWithHoles (3, 20.0, 6.0, 2.0, 1);
+  return sheetWithHoles (3, 20.0, 6.0, 2.0, 1);
 }
 
 KnownSurface
@@ -340,7 +351,8 @@ cases ()
     const std::string of_seed = "_seed_" + std::to_string (seed);
     for (const int ratio : {2, 5, 10, 30})
       add ("step_" + std::to_string (ratio) + of_seed, [=] { return densityStep (ratio, seed); });
-    for (const int apart : {2, 3, 5, 10, 20, 30})
+    // From 7 to 10 apart, a few of the farther neighbours lie on one of the lines beside.
+    for (const int apart : {2, 3, 5, 7, 8, 9, 10, 20, 30})
       for (const double noise : {0.0, 0.01})
         add ("lines_" + std::to_string (apart) + (noise > 0.0 ? "_noisy" : "") + of_seed,
              [=] { return scanLines (apart, noise, seed); });

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What decides which side of a mesh is its front: normals of the input, and what the options ask
 // for.
-#include "points/point_samples.h"
+#include "samples.h"
 #include "scan_samples.h"
 
 #include <pcl/surface/floater/reconstruct.h>
@@ -16,9 +16,7 @@
 namespace pcl::floater {
 namespace {
 using Eigen::Vector3d;
-using samples::PI;
-using samples::Positions;
-using samples::warns;
+using namespace samples;
 using Direction = std::function<Vector3d (const Vector3d&)>;
 
 const Direction UP = [] (const Vector3d&) { return Vector3d::UnitZ (); };
@@ -30,7 +28,7 @@ const Direction IN = [] (const Vector3d& p) { return Vector3d (-p); };
 Positions
 sheet (const std::function<double (double)>& height)
 {
-  Positions points = samples::disc (0.06, 3).positions;
+  Positions points = disc (0.06, 3).positions;
   for (Vector3d& p : points)
     p.z () = height (p.norm ());
   return points;
@@ -41,8 +39,8 @@ Positions
 bowl ()
 {
   constexpr std::size_t POINTS = 1300;
-  return samples::placed (samples::surface (SurfaceKind::HEMISPHERE, POINTS), Vector3d::Zero (),
-                          -1.0 / std::sqrt (static_cast<double> (POINTS) / (2.0 * PI)));
+  return placed (surface (SurfaceKind::HEMISPHERE, POINTS), Vector3d::Zero (),
+                 -1.0 / std::sqrt (static_cast<double> (POINTS) / (2.0 * PI)));
 }
 
 // What may tell the front.
@@ -57,7 +55,7 @@ Result
 run (const Positions& points, const Asked& asked, Options options = {})
 {
   options.facing = asked.facing;
-  Input input = samples::asInput (points);
+  Input input = asInput (points);
   for (const Vector3d& p : points)
     if (asked.normal)
       input.facing_normals.push_back (asked.normal (p).cast<float> ());
@@ -100,9 +98,10 @@ expectFacing (const Positions& points, const Asked& asked, const Direction& ther
 
 TEST (FacingChoices, NormalsOfAClosedBody)
 {
-  const Positions body = samples::evenSphere (1500);
+  const Positions body = evenSphere (1500);
   expectFacing (body, {Facing::AUTO}, OUT, FacingRule::CLOSED);
   expectFacing (body, {Facing::OUTWARDS, IN}, OUT, FacingRule::CLOSED);
+  expectFacing (body, {Facing::INWARDS}, IN, FacingRule::CLOSED);
   const auto inwards = [] (double share) -> Direction {
     return [share, random = std::make_shared<RandomStream> (11)] (const Vector3d& p) {
       return Vector3d (random->uniform () < share ? -p : p);
@@ -127,16 +126,16 @@ TEST (FacingChoices, NormalsOfAClosedBody)
   }
   Options options;
   options.facing = Facing::NORMALS;
-  const Report none = reconstruct (samples::asInput (body), options).report;
+  const Report none = reconstruct (asInput (body), options).report;
   EXPECT_EQ (none.status, RunStatus::INVALID_OPTION);
   EXPECT_NE (none.message.find ("have no normals"), std::string::npos);
 }
 
 TEST (FacingChoices, EveryComponentFacesByItsOwnNormals)
 {
-  Positions bodies = samples::evenSphere (1500);
+  Positions bodies = evenSphere (1500);
   const Vector3d other (5.0, 0.0, 0.0);
-  const Positions second = samples::evenSphere (1500, other);
+  const Positions second = evenSphere (1500, other);
   bodies.insert (bodies.end (), second.begin (), second.end ());
   const Direction opposite = [&] (const Vector3d& p) {
     return p.x () < 2.5 ? Vector3d (-p) : Vector3d (p - other);
@@ -146,7 +145,7 @@ TEST (FacingChoices, EveryComponentFacesByItsOwnNormals)
   EXPECT_EQ (shareFacing (two, bodies, opposite), 1.0);
 
   // Two halves of a sheet, which continue each other and would be turned together.
-  Positions halves = samples::disc (0.05, 3).positions;
+  Positions halves = disc (0.05, 3).positions;
   for (Vector3d& p : halves)
     p.x () += p.x () > 0.0 ? 0.15 : -0.15;
   const Direction by_half = [] (const Vector3d& p) {
@@ -171,9 +170,9 @@ TEST (FacingChoices, UpIsUpWhateverTheShapeIs)
 {
   expectFacing (bowl (), {Facing::AUTO}, OUT, FacingRule::BODY);
   EXPECT_GT (expectFacing (bowl (), {Facing::UP}, IN, FacingRule::UP).facing_certainty, 0.99);
-  expectFacing (samples::evenSphere (1500), {Facing::UP}, OUT, FacingRule::CLOSED,
+  expectFacing (evenSphere (1500), {Facing::UP}, OUT, FacingRule::CLOSED,
                 "is closed: no side is up, and it faces outwards");
-  Positions wall = samples::disc (0.06, 3).positions;
+  Positions wall = disc (0.06, 3).positions;
   for (Vector3d& p : wall)
     p = {p.x (), 0.0, p.y ()};
   const Report upright = expectFacing (
@@ -190,6 +189,8 @@ TEST (FacingChoices, OutwardsIsWhereASheetBulges)
     const Result outwards = run (points, {Facing::OUTWARDS});
     EXPECT_EQ (shareFacing (outwards, points, height > 0.0 ? UP : DOWN), 1.0);
     EXPECT_GT (outwards.report.facing_certainty, 0.9);
+    EXPECT_EQ (shareFacing (run (points, {Facing::INWARDS}), points, height > 0.0 ? DOWN : UP),
+               1.0);
     EXPECT_TRUE (outwards.report.warnings.empty ());
   }
   // Too low for lines of sight, which are a sample.
@@ -205,20 +206,20 @@ TEST (FacingChoices, OutwardsIsWhereASheetBulges)
 TEST (FacingChoices, TheViewpointIsFacedFromAnySide)
 {
   const Vector3d above (0.1, 0.2, 4.0), below (0.1, 0.2, -4.0);
-  const Positions body = samples::evenSphere (1500);
+  const Positions body = evenSphere (1500);
   expectFacing (bowl (), {Facing::VIEWPOINT, {}, above}, IN, FacingRule::SENSOR);
   expectFacing (bowl (), {Facing::VIEWPOINT, {}, below}, OUT, FacingRule::SENSOR);
   expectFacing (bowl (), {Facing::VIEWPOINT}, OUT, FacingRule::BODY, "none is known");
   expectFacing (body, {Facing::VIEWPOINT, {}, {0.1, 0.2, 0.3}}, IN, FacingRule::SENSOR);
   expectFacing (body, {Facing::VIEWPOINT, {}, above}, OUT, FacingRule::CLOSED,
                 "is closed: the viewpoint is outside");
-  Options disc = samples::discOptions (), no_view;
+  Options disc = discOptions (), no_view;
   no_view.view.use = ViewUse::NEVER;
   for (Options options : {disc, no_view}) {
     EXPECT_EQ (shareFacing (run (bowl (), {Facing::VIEWPOINT, {}, above}, options), bowl (), IN),
                1.0);
     options.facing = Facing::VIEWPOINT;
-    const Report unknown = reconstruct (samples::asInput (bowl ()), options).report;
+    const Report unknown = reconstruct (asInput (bowl ()), options).report;
     EXPECT_EQ (unknown.status, RunStatus::INVALID_OPTION);
     EXPECT_NE (unknown.message.find ("viewpoint"), std::string::npos);
   }
@@ -267,22 +268,14 @@ TEST (FacingChoices, ARoomFacesThePeopleInItAndABoxOutwards)
   }
 }
 
-TEST (FacingChoices, InwardsIsTheOppositeOfOutwards)
-{
-  expectFacing (samples::evenSphere (1500), {Facing::INWARDS}, IN, FacingRule::CLOSED);
-  expectFacing (bowl (), {Facing::INWARDS}, IN, FacingRule::BODY);
-  const Positions dome = sheet ([] (double r) { return 0.1 * (1.0 - r * r); });
-  EXPECT_EQ (shareFacing (run (dome, {Facing::INWARDS}), dome, DOWN), 1.0);
-}
-
 // A scan that is connected as its sensor saw it faces the sensor, unless something else decides.
 TEST (FacingChoices, OfASingleScan)
 {
-  const samples::Scan scan = samples::scanScene (samples::Raster::CAMERA, {0.005, 0.0}, 3);
+  const Scan scan = scanScene (Raster::CAMERA, {0.005, 0.0}, 3);
   const Direction to_sensor = [&scan] (const Vector3d& p) { return Vector3d (scan.viewpoint - p); };
   const Direction away = [&scan] (const Vector3d& p) { return Vector3d (p - scan.viewpoint); };
   const auto view = [&scan] (const Asked& asked) {
-    Result result = run (scan.points, asked, samples::seenFrom (scan.viewpoint));
+    Result result = run (scan.points, asked, seenFrom (scan.viewpoint));
     EXPECT_TRUE (result.report.is_view) << result.report.message;
     return result;
   };

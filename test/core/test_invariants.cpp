@@ -16,7 +16,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::Positions;
+using namespace samples;
 
 /// A method and a cloud. The points have no ties in their coordinates, and none is there twice, so that
 /// rounding and order decide nothing.
@@ -40,12 +40,7 @@ std::function<Positions (bool)>
 noisy (SurfaceKind kind, double noise, std::size_t large, bool with_outliers = false)
 {
   return [=] (bool is_large) {
-    SurfaceSpec spec;
-    spec.kind = kind;
-    spec.points = is_large ? large : 600;
-    spec.noise = noise;
-    spec.seed = 5;
-    Positions points = generateSurface (spec);
+    Positions points = generateSurface ({kind, is_large ? large : 600, 5, 1.0, noise});
     for (int i = 0; with_outliers && i < 5; ++i)
       points.emplace_back (31.3 * i * i, 200.1 - 7.7 * i, 90.3 + 11.1 * i);
     return points;
@@ -55,7 +50,7 @@ noisy (SurfaceKind kind, double noise, std::size_t large, bool with_outliers = f
 Positions
 frame (bool is_large)
 {
-  const samples::Scan scan = samples::scanScene (samples::Raster::CAMERA, {0.01, 0.0}, 7);
+  const Scan scan = scanScene (Raster::CAMERA, {0.01, 0.0}, 7);
   Positions points;
   for (std::size_t p = 0; p < scan.points.size (); p += is_large ? 1 : 8)
     points.push_back (scan.points[p]);
@@ -70,8 +65,7 @@ stacks (bool is_large)
   RandomStream random (3);
   points.reserve (3 * points.size ());
   for (std::size_t p = 0, all = 2 * points.size (); p < all; ++p)
-    points.emplace_back (points[p] + 0.05 * Eigen::Vector3d (random.uniform (), random.uniform (),
-                                                             random.uniform ()));
+    points.emplace_back (points[p] + 0.05 * uniformVector (random));
   return points;
 }
 
@@ -95,7 +89,7 @@ invariants ()
     const std::string name = one.name;
     Options& options = one.options;
     if (name.rfind ("disc", 0) == 0)
-      options = samples::discOptions ();
+      options = discOptions ();
     one.has_normals = name == "normals";
     if (name == "denoised") // noise is sampled anew
       one.moved_share = 0.06;
@@ -132,7 +126,7 @@ class Invariants : public testing::TestWithParam<Invariant>
 protected:
   Result run (const Positions& points, const Options& options) const
   {
-    Input input = samples::asInput (points);
+    Input input = asInput (points);
     if (GetParam ().has_normals)
       for (const Eigen::Vector3d& p : points)
         input.facing_normals.push_back ((-p.stableNormalized ()).cast<float> ());
@@ -196,10 +190,10 @@ relabelled (const std::vector<Triangle>& triangles, const std::vector<Index>& la
 TEST_P (Invariants, OrderAndPowersOfTwoChangeNothing)
 {
   const Positions points = GetParam ().points (false);
-  const std::vector<Index> same = samples::indices (points.size ());
+  const std::vector<Index> same = indices (points.size ());
   const Result expected = run (points);
   ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
-  const std::vector<Index> order = samples::permutation (points.size (), 17);
+  const std::vector<Index> order = permutation (points.size (), 17);
   Positions permuted;
   for (const Index p : order)
     permuted.push_back (points[p]);
@@ -221,7 +215,7 @@ TEST_P (Invariants, MotionChangesFewTriangles)
 {
   const Positions points = GetParam ().points (true);
   const Result expected = run (points);
-  const std::set<Triangle> before = samples::unordered (expected.triangles);
+  const std::set<Triangle> before = unordered (expected.triangles);
   const Eigen::Affine3d turn (Eigen::AngleAxisd (1.1, Eigen::Vector3d (1, -2, 3).normalized ()));
   for (const Eigen::Affine3d& motion :
        {Eigen::Affine3d (Eigen::Translation3d (1e4, -3e3, 70) * turn),
@@ -235,7 +229,7 @@ TEST_P (Invariants, MotionChangesFewTriangles)
                expected.report.check.euler_characteristic);
     EXPECT_EQ (result.report.check.loops.size (), expected.report.check.loops.size ());
     double other = 0.0;
-    for (const Triangle& t : samples::unordered (result.triangles))
+    for (const Triangle& t : unordered (result.triangles))
       other += before.count (t) == 0 ? 1.0 : 0.0;
     EXPECT_LE (other, GetParam ().moved_share * static_cast<double> (before.size ()));
   }
@@ -274,10 +268,10 @@ INSTANTIATE_TEST_SUITE_P (Methods, Invariants, testing::ValuesIn (invariants ())
 
 TEST (Invariants, ThreadsDoNotChangeNormalsAndTexture)
 {
-  samples::Mesh mesh = samples::torus (90, 40);
+  Mesh mesh = torus (90, 40);
   RandomStream random (7);
   for (Eigen::Vector3d& p : mesh.positions)
-    p += 0.01 * Eigen::Vector3d (random.uniform (), random.uniform (), random.uniform ());
+    p += 0.01 * uniformVector (random);
   TextureOptions options;
   options.threads = 1;
   const TextureCoordinates one =

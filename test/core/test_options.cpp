@@ -4,12 +4,10 @@
 #include "options/check_options.h"
 
 #include "options/option_rows.h"
-#include "points/point_samples.h"
-
-#include <pcl/surface/floater/reconstruct.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -245,20 +243,6 @@ TEST (UnusedOptions, OfAScanThatIsConnectedAsItsSensorSawIt)
     EXPECT_EQ (describeUnusedOptions (options, view, true).size (), is_read ? 0U : 1U);
     EXPECT_TRUE (describeUnusedOptions (options, view, false).empty ());
     EXPECT_TRUE (describeUnusedOptions (options, madeAs (Topology::SURFACE), true).empty ());
-  }
-}
-
-TEST (UnusedOptions, AreWarningsOfARun)
-{
-  for (const Topology topology : {Topology::SURFACE, Topology::DISC}) {
-    Options options;
-    options.topology = topology;
-    options.disc.weighting = Weighting::UNIFORM;
-    const Report report =
-        reconstruct (samples::asInput (samples::surface (SurfaceKind::HEIGHT_FIELD, 500)), options)
-            .report;
-    EXPECT_EQ (report.status, GOOD) << report.message;
-    EXPECT_EQ (samples::warns (report, "no effect: weights"), topology == Topology::SURFACE);
   }
 }
 

@@ -14,7 +14,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::Positions;
+using namespace samples;
 
 std::string
 dataFolder ()
@@ -40,9 +40,7 @@ PrintTo (const Known& cloud, std::ostream* out)
   *out << cloud.name;
 }
 
-class AnyRealCloud : public testing::TestWithParam<Known>
-{
-};
+using AnyRealCloud = testing::TestWithParam<Known>;
 
 TEST_P (AnyRealCloud, IsWhatItIs)
 {
@@ -54,9 +52,8 @@ TEST_P (AnyRealCloud, IsWhatItIs)
   Options options;
   options.holes.policy = known.holes;
   options.holes.kept_loops = known.kept_loops;
-  const Result result = reconstruct (samples::asInput (cloud), options);
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  const samples::Topology topology = samples::topologyOf (result.triangles);
+  const Result result = meshOf (cloud, options);
+  const MeshTopology topology = topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, cloud.size ());
   EXPECT_EQ (topology.components, known.components);

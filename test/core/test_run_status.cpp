@@ -7,7 +7,7 @@
 #include "core/geometry.h"
 #include "core/run_context.h"
 #include "options/option_rows.h"
-#include "points/point_samples.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -22,10 +22,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::asInput;
-using samples::discOptions;
-using samples::Positions;
-using samples::surface;
+using namespace samples;
 
 void
 expectFailure (const Result& result, RunStatus status, const std::string& why)
@@ -39,7 +36,7 @@ expectFailure (const Result& result, RunStatus status, const std::string& why)
 Positions
 discAt (const Eigen::Vector3d& place, double radius, std::uint64_t seed)
 {
-  return samples::placed (samples::disc (0.1, seed).positions, place, radius);
+  return placed (disc (0.1, seed).positions, place, radius);
 }
 
 Options
@@ -132,14 +129,14 @@ TEST (RunStatus, TurnsTooFarApartAreNoSurface)
     expectFailure (reconstruct (asInput (turns (40.0, noise)), {}), RunStatus::DEGENERATE,
                    "along curves");
   for (const double noise : {0.0, 1.0})
-    EXPECT_EQ (reconstruct (asInput (turns (5.0, noise)), {}).report.status, RunStatus::SUCCESS);
+    meshOf (turns (5.0, noise));
   // The rays to points of a spiral, which fill a plate, have steps of two or three sizes.
   Positions plates;
   for (int i = 0; i < 3 * 300; ++i) {
     const double radius = std::sqrt (i % 300 + 0.5), angle = 2.399963 * i;
     plates.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 40.0 * (i / 300));
   }
-  EXPECT_EQ (reconstruct (asInput (plates), {}).report.status, RunStatus::SUCCESS);
+  meshOf (plates);
 }
 
 // Throws.
@@ -164,7 +161,7 @@ TEST (RunStatus, ExceptionsBecomeStatuses)
       {RunStatus::OUT_OF_MEMORY, "is full", [] { throw IndexLimitReached ("the table is full"); }},
       {RunStatus::OUT_OF_MEMORY, "use fewer points", [] { throw std::length_error ("vector"); }},
       {RunStatus::INTERNAL_ERROR, "fell over", [] { throw std::runtime_error ("it fell over"); }}};
-  const Positions cloud = samples::disc (0.1, 5).positions;
+  const Positions cloud = disc (0.1, 5).positions;
   for (const auto& [status, why, fault] : faults) {
     BrokenSearch search (fault);
     expectFailure (reconstruct (asInput (cloud, &search), {}), status, why);
@@ -174,7 +171,7 @@ TEST (RunStatus, ExceptionsBecomeStatuses)
 // Arrays that would make the run write outside of its own.
 TEST (RunStatus, InvalidInput)
 {
-  const Input good = asInput (samples::disc (0.1, 7).positions);
+  const Input good = asInput (disc (0.1, 7).positions);
   const auto expectRefusal = [&good] (const auto& change, const std::string& why) {
     Input wrong = good;
     change (wrong);
@@ -202,7 +199,7 @@ TEST (Stages, ComeInOrderAndEndWithTheOneThatFails)
   options.disc.boundary.method = BoundaryMethod::CONSENSUS; // whose own stages are none of the run
   std::vector<Stage> stages;
   options.stage_callback = [&stages] (Stage stage) { stages.push_back (stage); };
-  const Report report = reconstruct (asInput (samples::disc (0.1, 6).positions), options).report;
+  const Report report = reconstruct (asInput (disc (0.1, 6).positions), options).report;
   EXPECT_EQ (stages, (std::vector<Stage>{Stage::WORKING_SET, Stage::NEIGHBORS, Stage::STARS,
                                          Stage::BOUNDARY, Stage::WEIGHTS, Stage::SOLVE,
                                          Stage::DELAUNAY, Stage::FLIPS, Stage::CHECK}));
@@ -246,8 +243,7 @@ TEST (Callbacks, ComeFromTheirThreadsAndChangeNothing)
         of_calls.insert (std::this_thread::get_id ());
         return false;
       };
-      const Result result = reconstruct (asInput (points), watched);
-      ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+      const Result result = meshOf (points, watched);
       EXPECT_EQ (result.triangles, plain.triangles);
       EXPECT_EQ (of_calls, std::set<std::thread::id>{here});
       ASSERT_GE (fractions.size (), 7U); // when stages begin, and at the end
@@ -273,7 +269,7 @@ expectQuestionsWithin (std::set<Stage> stages, const Positions& points, Options 
   const std::chrono::milliseconds usual = std::exchange (RunMonitor::between_polls, {});
   for (int tries = 0; tries < 5 && !stages.empty (); ++tries) {
     questions.clear ();
-    EXPECT_EQ (reconstruct (asInput (points), options).report.status, RunStatus::SUCCESS);
+    meshOf (points, options);
     for (const auto& [stage, count] : questions)
       if (count > 1)
         stages.erase (stage);

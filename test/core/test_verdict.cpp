@@ -8,8 +8,9 @@
 
 #include <gtest/gtest.h>
 
+namespace pcl::floater {
 namespace {
-using namespace pcl::floater;
+using namespace samples;
 
 void
 expectIn (const std::string& text, const std::string& part)
@@ -119,13 +120,12 @@ TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)
 
 TEST (Verdict, OfGeneratedClouds)
 {
-  const auto of = [] (const samples::KnownSurface& surface) {
-    return reconstruct (samples::asInput (surface.points), {}).report.verdict.value;
+  const auto of = [] (const KnownSurface& surface) {
+    return reconstruct (asInput (surface.points), {}).report.verdict.value;
   };
-  EXPECT_EQ (of (samples::sheetWithHoles (3, 15.0, 5.0, 5.0, 2)), Quality::GOOD);
-  EXPECT_EQ (of (samples::prism ({samples::rectangle (25.0, 18.0)}, 15.0, 1)), Quality::GOOD);
-  EXPECT_EQ (of (samples::withNoise (samples::sheetWithHoles (1, 25.0, 10.0, 10.0, 1), 0.5, 6)),
-             Quality::USABLE);
+  EXPECT_EQ (of (sheetWithHoles (3, 15.0, 5.0, 5.0, 2)), Quality::GOOD);
+  EXPECT_EQ (of (prism ({rectangle (25.0, 18.0)}, 15.0, 1)), Quality::GOOD);
+  EXPECT_EQ (of (withNoise (sheetWithHoles (1, 25.0, 10.0, 10.0, 1), 0.5, 6)), Quality::USABLE);
 }
 
 TEST (Verdict, ThereIsNoneWithoutAMesh)
@@ -138,3 +138,4 @@ TEST (Verdict, ThereIsNoneWithoutAMesh)
 }
 
 } // namespace
+} // namespace pcl::floater

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -54,6 +55,14 @@ private:
   const std::uint8_t* at_;
   std::size_t left_;
 };
+
+/// A number that the environment asks for, or the usual one.
+inline std::size_t
+wantedBy (const char* variable, std::size_t usual)
+{
+  const char* const wanted = std::getenv (variable);
+  return wanted == nullptr ? usual : std::strtoull (wanted, nullptr, 10);
+}
 
 /// What a run is given.
 struct Attack

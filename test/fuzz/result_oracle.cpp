@@ -105,7 +105,7 @@ findFaultOfPoints (const Input& input, const Result& result, const std::set<std:
 }
 
 std::string
-findFaultOfFigures (const Input& input, const Result& result, const samples::Topology& topology)
+findFaultOfFigures (const Input& input, const Result& result, const samples::MeshTopology& topology)
 {
   const Report& report = result.report;
   const MeshCheck& check = report.check;
@@ -151,7 +151,7 @@ findFault (const Input& input, const Result& result)
     used.insert (triangle.begin (), triangle.end ());
   if (std::string fault = findFaultOfPoints (input, result, used); !fault.empty ())
     return fault;
-  const samples::Topology topology = samples::topologyOf (result.triangles);
+  const samples::MeshTopology topology = samples::topologyOf (result.triangles);
   if (!topology.manifold)
     return "the mesh is no oriented manifold";
   return findFaultOfFigures (input, result, topology);

@@ -5,7 +5,8 @@
 //
 // Malloc and its kin are replaced, and with them operator new and what C libraries allocate. For
 // glibc, and not together with a sanitizer, which replaces them itself.
-#include "points/point_samples.h"
+#include "attack.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ __libc_free (void* block);
 
 namespace pcl::floater {
 namespace {
-using samples::Positions;
+using namespace samples;
 
 /// What fails of the allocations that a thread makes after failAllocations ().
 enum class MemoryFault
@@ -169,7 +170,7 @@ makeScan (int width)
 std::vector<Way>
 allWays (std::size_t points)
 {
-  Options disc = samples::discOptions (), iterative = disc, ordered = disc, balls, surface, view;
+  Options disc = discOptions (), iterative = disc, ordered = disc, balls, surface, view;
   iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
   iterative.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
   iterative.disc.boundary.cluster_tolerance = 0.3;
@@ -182,7 +183,7 @@ allWays (std::size_t points)
   view.view.use = ViewUse::GIVEN;
   const auto make = [points] (const char* name, SurfaceKind kind, Options options) {
     options.threads = 1;
-    return Way{name, samples::asInput (samples::surface (kind, points)), options};
+    return Way{name, asInput (surface (kind, points)), options};
   };
   std::vector<Way> ways{make ("disc", SurfaceKind::HEIGHT_FIELD, disc),
                         make ("hemisphere", SurfaceKind::HEMISPHERE, disc),
@@ -192,25 +193,15 @@ allWays (std::size_t points)
                         make ("balls", SurfaceKind::TORUS, balls)};
   const auto width = static_cast<int> (std::sqrt (static_cast<double> (points)));
   view.threads = 1;
-  ways.push_back ({"view", samples::asInput (makeScan (width)), view});
+  ways.push_back ({"view", asInput (makeScan (width)), view});
   return ways;
 }
 
-// A number that the environment asks for, or the usual one.
-std::size_t
-wantedBy (const char* variable, std::size_t usual)
-{
-  const char* const wanted = std::getenv (variable);
-  return wanted == nullptr ? usual : std::strtoull (wanted, nullptr, 10);
-}
-
-class MemoryFaults : public testing::TestWithParam<std::size_t>
-{
-};
+using MemoryFaults = testing::TestWithParam<std::size_t>;
 
 TEST_P (MemoryFaults, EndARunInAnOrderlyWay)
 {
-  const Way way = allWays (wantedBy ("PCL_FLOATER_MEMORY_POINTS", 120))[GetParam ()];
+  const Way way = allWays (fuzz::wantedBy ("PCL_FLOATER_MEMORY_POINTS", 120))[GetParam ()];
   SCOPED_TRACE (way.name);
   const Result expected = reconstruct (way.input, way.options);
   ASSERT_EQ (expected.report.status, RunStatus::SUCCESS) << expected.report.message;
@@ -218,7 +209,7 @@ TEST_P (MemoryFaults, EndARunInAnOrderlyWay)
   reconstruct (way.input, way.options);
   const std::size_t all = stopFailing ();
   // Failures of each kind, spread over all allocations; 0: at every allocation.
-  const std::size_t wanted = wantedBy ("PCL_FLOATER_MEMORY_FAULTS", 0);
+  const std::size_t wanted = fuzz::wantedBy ("PCL_FLOATER_MEMORY_FAULTS", 0);
   const std::size_t step = wanted == 0 ? 1 : std::max<std::size_t> (all / wanted, 1);
   std::size_t ended = 0, survived = 0;
   for (const MemoryFault fault : {MemoryFault::ONE, MemoryFault::ALL})

@@ -6,20 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <ctime>
 #include <random>
 
 namespace pcl::floater {
 namespace {
-// A number that the environment asks for, or the usual one.
-std::uint64_t
-wantedBy (const char* variable, std::uint64_t usual)
-{
-  const char* const wanted = std::getenv (variable);
-  return wanted == nullptr ? usual : std::strtoull (wanted, nullptr, 10);
-}
-
 // The cloud and options of random bytes.
 fuzz::Attack
 randomAttack (std::uint64_t seed, std::size_t most)
@@ -32,16 +23,15 @@ randomAttack (std::uint64_t seed, std::size_t most)
   return fuzz::decodeAttack (source, most);
 }
 
-class RandomClouds : public testing::TestWithParam<std::size_t>
-{
-};
+using RandomClouds = testing::TestWithParam<std::size_t>;
 
 TEST_P (RandomClouds, GiveNoWrongResult)
 {
   // Clouds of each size; the longest time of one, which no test has that may run on a busy machine.
-  const std::uint64_t clouds = wantedBy ("PCL_FLOATER_RANDOM_CLOUDS", 60);
-  const std::uint64_t first = wantedBy ("PCL_FLOATER_FIRST_SEED", 1);
-  const auto longest = static_cast<double> (wantedBy ("PCL_FLOATER_LONGEST", 1000)); // seconds
+  const std::uint64_t clouds = fuzz::wantedBy ("PCL_FLOATER_RANDOM_CLOUDS", 60);
+  const std::uint64_t first = fuzz::wantedBy ("PCL_FLOATER_FIRST_SEED", 1);
+  const auto longest =
+      static_cast<double> (fuzz::wantedBy ("PCL_FLOATER_LONGEST", 1000)); // seconds
   std::size_t meshes = 0;
   for (std::uint64_t seed = first; seed < first + clouds; ++seed) {
     const fuzz::Attack attack = randomAttack (seed, GetParam ());

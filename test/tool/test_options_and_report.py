@@ -262,7 +262,8 @@ def test_coarse_coordinates_are_told(on_map):
     for name in ("float.pcd", "text.pcd"):
         report = on_map.report("-q", name)
         assert report["statistics"]["coordinate_step"] > 0.1
-        assert "the coordinates are coarse" in str(report["warnings"])
+        warnings = str(report["warnings"])
+        assert "the coordinates are coarse: along y they are 0.5 apart, " in warnings and "subtract an origin" in warnings
     on_map.succeed("double.pcd out.ply --precision double --strict")
     on_map.succeed("text.pcd out.ply --strict --shift auto")
 

@@ -1,15 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The common orientation of normals, and the boundary loop of a disc as a loop of
-// the triangles that stars agree on.
+// The common orientation of normals, the boundary loop of a disc as a loop of the triangles that stars agree on,
+// the manifold part of a consensus, and clouds whose stars meet in one point several times.
+#include "consensus/consensus.h"
+
 #include "consensus/consensus_method.h"
 #include "consensus/orientation.h"
+#include "mesh_oracle.h"
 #include "samples.h"
+
+#include <pcl/surface/floater/reconstruct.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cstdlib>
+#include <random>
+#include <set>
+#include <string>
+
 namespace pcl::floater {
 namespace {
+using namespace samples;
+
 // A candidate by the normals of its corners: bit i of `down` is set if normal i points down.
 Candidate
 candidate (const Triangle& corners, std::uint8_t down, std::uint8_t votes = 3)
@@ -52,9 +67,6 @@ TEST (Orientation, TheMajorityOfVotesDecides)
   }
 }
 
-using samples::Neighborhoods;
-using samples::Sheet;
-
 Boundary
 find (const Neighborhoods& made)
 {
@@ -66,18 +78,18 @@ find (const Neighborhoods& made)
 // A hole in the sheet is no border, however it is sampled.
 TEST (ConsensusLoop, IsTheBorderAndNotAHole)
 {
-  const samples::Outline rim = samples::circle (1.0, 0.06), hole = samples::circle (0.4, 0.06);
-  for (const std::vector<samples::Outline>& outlines :
-       {std::vector<samples::Outline>{rim}, std::vector<samples::Outline>{rim, hole}}) {
-    const Sheet sheet = samples::fillOutlines (outlines, 0.06, 0.35, 6);
-    const Neighborhoods made = samples::makeNeighborhoods (sheet.positions);
+  const Outline rim = circle (1.0, 0.06), hole = circle (0.4, 0.06);
+  for (const std::vector<Outline>& outlines :
+       {std::vector<Outline>{rim}, std::vector<Outline>{rim, hole}}) {
+    const Sheet sheet = fillOutlines (outlines, 0.06, 0.35, 6);
+    const Neighborhoods made = makeNeighborhoods (sheet.positions);
     const std::vector<Eigen::Vector3f> normals = made.geometry.stars.normals;
     const Boundary boundary = find (made);
     EXPECT_FALSE (boundary.problem);
     std::vector<Index> loop;
     for (const Index p : boundary.loop)
       loop.push_back (made.points.cloud_index[p]);
-    EXPECT_EQ (samples::canonicalCycle (loop), samples::indices (sheet.border));
+    EXPECT_EQ (canonicalCycle (loop), indices (sheet.border));
     EXPECT_GE (boundary.candidates, sheet.border + (outlines.size () - 1) * hole.size ());
     EXPECT_LT (boundary.largest_step, 2.0);
     EXPECT_EQ (made.geometry.stars.normals, normals);
@@ -86,10 +98,154 @@ TEST (ConsensusLoop, IsTheBorderAndNotAHole)
 
 TEST (ConsensusLoop, OfAClosedSurfaceIsEmpty)
 {
-  const Boundary boundary = find (samples::makeNeighborhoods (samples::evenSphere (1500)));
+  const Boundary boundary = find (makeNeighborhoods (evenSphere (1500)));
   EXPECT_EQ (boundary.problem.status, RunStatus::NO_BOUNDARY);
   EXPECT_FALSE (boundary.problem.message.empty ());
   EXPECT_TRUE (boundary.loop.empty ());
+}
+
+std::vector<Triangle>
+tetrahedron (Index a, Index b, Index c, Index d)
+{
+  return {{a, b, c}, {a, c, d}, {a, d, b}, {b, d, c}};
+}
+
+// Makes a consensus of bodies, all triangles of body i with votes[i] votes; its manifold part.
+TriangleMesh
+partOf (const std::vector<std::vector<Triangle>>& bodies, const std::vector<std::uint8_t>& votes,
+        std::size_t points)
+{
+  Consensus consensus;
+  for (std::size_t i = 0; i < bodies.size (); ++i)
+    for (const Triangle& triangle : bodies[i]) {
+      consensus.triangles.push_back (triangle);
+      consensus.votes.push_back (votes[i]);
+    }
+  CsrLists no_neighbors;
+  no_neighbors.offsets.assign (points + 1, 0);
+  return manifoldPart (std::move (consensus), no_neighbors, 1, 1);
+}
+
+// Closed fans are walked around: the second one must not be taken for a part of the first.
+TEST (ManifoldPart, KeepsTheClosedFanOfMostVotes)
+{
+  const std::vector<Triangle> first = tetrahedron (0, 1, 2, 3), second = tetrahedron (0, 4, 5, 6);
+  const auto holds = [] (const TriangleMesh& mesh, const std::vector<Triangle>& body) {
+    return std::all_of (body.begin (), body.end (), [&mesh] (const Triangle& t) {
+      return std::count (mesh.triangles.begin (), mesh.triangles.end (), t) == 1;
+    });
+  };
+  for (const bool is_first : {true, false}) {
+    const TriangleMesh mesh =
+        is_first ? partOf ({first, second}, {3, 2}, 7) : partOf ({first, second}, {2, 3}, 7);
+    EXPECT_TRUE (topologyOf (mesh.triangles).manifold);
+    EXPECT_EQ (mesh.triangles.size (), 5); // the other one keeps the triangle away from the point
+    EXPECT_TRUE (holds (mesh, is_first ? first : second));
+  }
+}
+
+TEST (ManifoldPart, DropsTheTriangleOfFewerVotesAtADoubleEdge)
+{
+  const TriangleMesh mesh = partOf ({{{0, 1, 2}}, {{0, 1, 3}}}, {1, 2}, 4);
+  EXPECT_EQ (mesh.triangles, (std::vector<Triangle>{{0, 1, 3}}));
+}
+
+// A small component beside a larger one is an island, unless it is closed: then it is a body.
+TEST (ManifoldPart, HasNoSmallIslandsButBodies)
+{
+  const std::vector<Triangle> square{{0, 1, 2}, {0, 2, 3}}, body = tetrahedron (4, 5, 6, 7);
+  for (const bool is_closed : {true, false}) {
+    Consensus consensus;
+    consensus.triangles = body;
+    if (!is_closed)
+      consensus.triangles.resize (1);
+    consensus.triangles.insert (consensus.triangles.end (), square.begin (), square.end ());
+    consensus.triangles.push_back ({0, 3, 8});
+    consensus.triangles.push_back ({3, 9, 8});
+    consensus.triangles.push_back ({9, 10, 8});
+    consensus.votes.assign (consensus.triangles.size (), 3);
+    CsrLists neighbors; // only that point 4 is beside point 0
+    neighbors.offsets.assign (5, 0);
+    neighbors.offsets.resize (12, 1);
+    neighbors.ids = {0};
+    const std::size_t all = consensus.triangles.size ();
+    EXPECT_EQ (manifoldPart (std::move (consensus), neighbors, 9, 1).triangles.size (),
+               is_closed ? all : all - 1);
+  }
+}
+
+// The places of a crumb of the lattice of 3 x 3 x 3 points, as bits.
+using Crumb = std::uint32_t;
+
+// The least of a crumb's 48 images by turns and mirrors.
+Crumb
+leastImage (Crumb crumb)
+{
+  static const std::vector<std::array<Index, 27>> symmetries = [] {
+    std::vector<std::array<Index, 27>> all;
+    std::array<Index, 3> axes{0, 1, 2};
+    do
+      for (Index mirrors = 0; mirrors < 8; ++mirrors) {
+        std::array<Index, 27> to{};
+        for (Index i = 0; i < 27; ++i) {
+          const std::array<Index, 3> at{i % 3, i / 3 % 3, i / 9};
+          for (Index axis = 0, step = 1; axis < 3; ++axis, step *= 3)
+            to[i] += step * ((mirrors >> axis & 1U) != 0 ? 2 - at[axes[axis]] : at[axes[axis]]);
+        }
+        all.push_back (to);
+      }
+    while (std::next_permutation (axes.begin (), axes.end ()));
+    return all;
+  }();
+  Crumb least = crumb;
+  for (const std::array<Index, 27>& to : symmetries) {
+    Crumb image = 0;
+    for (Index i = 0; i < 27; ++i)
+      image |= (crumb >> i & 1U) << to[i];
+    least = std::min (least, image);
+  }
+  return least;
+}
+
+// Crumbs may have several closed fans. Each ends as a manifold, or is refused for a reason of its
+// own: all of up to 5 points that are distinct, and samples of 6 to 10 around the middle.
+// PCL_FLOATER_CRUMBS: all of up to so many points.
+TEST (ManifoldPart, CrumbsOfALatticeAreManifold)
+{
+  constexpr Crumb MIDDLE = 1U << 13U, END = 1U << 27U;
+  const char* const more = std::getenv ("PCL_FLOATER_CRUMBS");
+  const std::size_t most = more != nullptr ? std::stoul (more) : 5;
+  std::set<Crumb> crumbs;
+  for (std::size_t size = 3; size <= most; ++size)
+    for (Crumb crumb = (1U << size) - 1; crumb < END;) {
+      crumbs.insert (leastImage (crumb));
+      const Crumb lowest = crumb & (~crumb + 1U),
+                  next = crumb + lowest; // as many bits, the next larger
+      crumb = next | ((crumb ^ next) / lowest >> 2U);
+    }
+  EXPECT_GE (crumbs.size (), 2540U); // by Burnside's lemma, of up to 5
+  std::mt19937 random (1);
+  for (std::size_t i = 0; i < 2000; ++i) {
+    Crumb crumb = MIDDLE;
+    while (std::bitset<27> (crumb).count () < 6 + i % 5)
+      crumb |= 1U << random () % 27;
+    crumbs.insert (leastImage (crumb));
+  }
+  Options options;
+  options.threads = 1;
+  std::size_t meshes = 0;
+  for (const Crumb crumb : crumbs) {
+    Positions positions;
+    for (Index i = 0; i < 27; ++i)
+      if ((crumb >> i & 1U) != 0)
+        positions.emplace_back (i % 3, i / 3 % 3, i / 9);
+    const Result result = reconstruct (positions, options);
+    ASSERT_NE (result.report.status, RunStatus::INTERNAL_ERROR)
+        << result.report.message << ": crumb " << crumb;
+    ASSERT_TRUE (topologyOf (result.triangles).manifold) << crumb;
+    meshes += result.report.status == RunStatus::SUCCESS ? 1 : 0;
+  }
+  EXPECT_GT (meshes, crumbs.size () / 2);
 }
 
 } // namespace

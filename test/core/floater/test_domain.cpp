@@ -10,6 +10,8 @@
 
 namespace pcl::floater {
 namespace {
+using namespace samples;
+
 using Places = std::vector<Eigen::Vector2d>;
 
 constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
@@ -294,7 +296,7 @@ TEST (Reachability, MatchesItsDefinitionOnRandomGraphs)
         for (std::size_t i = random.below (round % 2 == 0 ? 3 : 2); i > 0; --i)
           list.push_back (static_cast<Index> (random.below (count)));
     const Reachability reach =
-        reachLoop (flatten (rows), flatten (nearest), samples::randomPoints (count, 1), {0, 1}, 1);
+        reachLoop (flatten (rows), flatten (nearest), randomPoints (count, 1), {0, 1}, 1);
     Lists both = rows;
     for (Index p = 0; p < count; ++p)
       for (const Index q : nearest[p]) {

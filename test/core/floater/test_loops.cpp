@@ -11,14 +11,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::canonicalCycle;
-using samples::indices;
-using samples::makeNeighborhoods;
-using samples::Neighborhoods;
-using samples::Outline;
-using samples::Positions;
-using samples::randomPoints;
-using samples::Sheet;
+using namespace samples;
 using Clusters = std::vector<std::vector<Index>>;
 using Gaps = std::vector<std::array<Index, 3>>;
 
@@ -141,18 +134,16 @@ TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
   };
   const auto square = [] (double width, double height, double step, std::uint64_t seed,
                           double jitter = 0.3) {
-    return samples::fillOutlines (
-        {samples::resample ({{0, 0}, {width, 0}, {width, height}, {0, height}}, step)}, step,
-        jitter, seed);
+    return fillOutlines ({resample ({{0, 0}, {width, 0}, {width, height}, {0, height}}, step)},
+                         step, jitter, seed);
   };
   const std::vector<Case> cases{
-      {"disc", [] (std::uint64_t seed) { return samples::disc (0.06, seed); }, 1.0},
+      {"disc", [] (std::uint64_t seed) { return disc (0.06, seed); }, 1.0},
       {"square", [&] (std::uint64_t seed) { return square (1.0, 1.0, 0.04, seed); }, 1.0},
       {"lattice", [&] (std::uint64_t seed) { return square (20.0, 20.0, 1.0, seed, 0.0); }, 1.0},
       {"annulus",
        [] (std::uint64_t seed) {
-         return samples::fillOutlines ({samples::circle (1.0, 0.06), samples::circle (0.5, 0.06)},
-                                       0.06, 0.35, seed);
+         return fillOutlines ({circle (1.0, 0.06), circle (0.5, 0.06)}, 0.06, 0.35, seed);
        },
        1.0},
       {"star",
@@ -160,7 +151,7 @@ TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
          Outline corners;
          for (int i = 0; i < 12; ++i)
            corners.emplace_back ((i % 2 == 0 ? 1.0 : 0.5) * onCircle (PI * i / 6.0).head<2> ());
-         return samples::fillOutlines ({samples::resample (corners, 0.03)}, 0.03, 0.25, seed);
+         return fillOutlines ({resample (corners, 0.03)}, 0.03, 0.25, seed);
        },
        0.97},
       // The spacing varies by a factor of e^3 = 20.
@@ -226,7 +217,7 @@ borders ()
     all.emplace_back ("rectangle " + std::to_string (side), Positions{});
     const double height = side == 1.0 ? 1.0 : 2.0 * side; // the least: four points
     for (const Eigen::Vector2d& p :
-         samples::resample ({{0, 0}, {side, 0}, {side, height}, {0, height}}, 1.0))
+         resample ({{0, 0}, {side, 0}, {side, height}, {0, height}}, 1.0))
       all.back ().second.emplace_back (p.x (), p.y (), 0.0);
   }
   // Each dash has more points than a neighbourhood can have: only bridges lead to the next one.
@@ -244,7 +235,7 @@ TEST (TwoSegmentLoop, IsTheBorderWhateverTheNumbersOfItsPoints)
   for (const auto& [name, border] : borders ())
     for (std::uint64_t seed = 1; seed <= (border.size () < 1000 ? 8U : 1U); ++seed) {
       SCOPED_TRACE (name + ", seed " + std::to_string (seed));
-      const std::vector<Index> order = samples::permutation (border.size (), seed);
+      const std::vector<Index> order = permutation (border.size (), seed);
       Positions positions;
       for (const Index p : order)
         positions.push_back (border[p]);
@@ -281,16 +272,9 @@ find (const Neighborhoods& made, const BoundaryOptions& options)
 
 TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
 {
-  const Sheet sheet = samples::disc (0.06, 1);
-  Positions sphere (1500);
-  for (std::size_t i = 0; i < sphere.size (); ++i) { // a spiral from pole to pole
-    const double z = 1.0 - 2.0 * (static_cast<double> (i) + 0.5) / 1500.0;
-    sphere[i] = std::sqrt (1.0 - z * z) *
-                    onCircle (PI * (3.0 - std::sqrt (5.0)) * static_cast<double> (i)) +
-                z * Eigen::Vector3d::UnitZ ();
-  }
+  const Sheet sheet = disc (0.06, 1);
   const Neighborhoods open = makeNeighborhoods (sheet.positions);
-  const Neighborhoods closed = makeNeighborhoods (sphere);
+  const Neighborhoods closed = makeNeighborhoods (evenSphere (1500));
   for (const BoundaryMethod method :
        {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
     BoundaryOptions options;

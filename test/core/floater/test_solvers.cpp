@@ -16,6 +16,8 @@
 
 namespace pcl::floater {
 namespace {
+using namespace samples;
+
 bool
 isIterative (Solver solver)
 {
@@ -48,9 +50,9 @@ LinearSystem
 squareSystem (int side, std::uint64_t seed, Weighting weighting = Weighting::MEAN_VALUE)
 {
   const double step = 1.0 / (side - 1);
-  const samples::Sheet sheet = samples::fillOutlines (
-      {samples::resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step, 0.12, seed);
-  const auto [points, geometry] = samples::makeNeighborhoods (sheet.positions);
+  const Sheet sheet =
+      fillOutlines ({resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step, 0.12, seed);
+  const auto [points, geometry] = makeNeighborhoods (sheet.positions);
   std::vector<Index> loop (sheet.border);
   std::vector<Eigen::Vector2d> uv;
   for (Index p = 0; p < points.size (); ++p)
@@ -180,7 +182,7 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
 TEST (Solvers, UseTheOrderThatIsAskedFor)
 {
   LinearSystem system = squareSystem (30, 2);
-  const std::vector<Index> shuffled = samples::permutation (system.unknowns (), 5);
+  const std::vector<Index> shuffled = permutation (system.unknowns (), 5);
   Eigen::PermutationMatrix<Eigen::Dynamic> order (system.matrix.rows ());
   std::copy (shuffled.begin (), shuffled.end (), order.indices ().begin ());
   system.matrix = SystemMatrix (system.matrix).twistedBy (order);

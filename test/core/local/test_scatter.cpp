@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scatter: what is no surface is found, whatever its kind, and no point of a surface is.
-#include "points/point_samples.h"
+#include "samples.h"
 
 #include <pcl/surface/floater/reconstruct.h>
 
@@ -9,7 +9,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::Positions;
+using namespace samples;
 
 // Strewn into a box, into a ball with the most in the middle, into clumps, on small leaves, and a
 // jittered lattice.
@@ -27,9 +27,9 @@ Positions
 strewn (Strewn kind, std::size_t count, std::uint64_t seed)
 {
   RandomStream random (seed);
-  const auto normal = [&random] { return samples::normalVector (random); };
-  Positions positions = samples::randomPoints (count, seed);
-  const Positions centres = samples::randomPoints (count / 8, seed + 1);
+  const auto normal = [&random] { return normalVector (random); };
+  Positions positions = randomPoints (count, seed);
+  const Positions centres = randomPoints (count / 8, seed + 1);
   const auto side = static_cast<std::size_t> (std::cbrt (static_cast<double> (count)));
   Eigen::Vector3d along = Eigen::Vector3d::UnitX (), across = Eigen::Vector3d::UnitY ();
   for (std::size_t i = 0; i < count; ++i) {
@@ -70,7 +70,7 @@ reportOn (const Positions& positions, ScatterPolicy policy = ScatterPolicy::KEEP
 Positions
 sphereAndBush (std::size_t on_sphere, std::size_t in_bush)
 {
-  Positions positions = samples::surface (SurfaceKind::SPHERE, on_sphere);
+  Positions positions = surface (SurfaceKind::SPHERE, on_sphere);
   for (const Eigen::Vector3d& p : strewn (Strewn::BOX, in_bush, 4))
     positions.emplace_back (0.3 * p + Eigen::Vector3d (2.0, 0.0, 0.0));
   return positions;
@@ -122,7 +122,7 @@ TEST (Scatter, SmallBushesStay)
 TEST (Scatter, SurfacesAreNoneHoweverNoisyOrThin)
 {
   std::vector<std::pair<const char*, Positions>> clouds{
-      {"small sphere", samples::surface (SurfaceKind::SPHERE, 400)}};
+      {"small sphere", surface (SurfaceKind::SPHERE, 400)}};
   for (const double thickness : {0.5, 1.0, 2.0}) { // below its spacing: uneven, but stars agree
     clouds.push_back ({"wall", {}});
     for (int x = 0; x < 60; ++x)
@@ -133,22 +133,22 @@ TEST (Scatter, SurfacesAreNoneHoweverNoisyOrThin)
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     RandomStream random (seed);
     for (const double noise : {0.0, 0.3, 1.0}) {
-      clouds.emplace_back ("plane", samples::randomPoints (8000, seed));
+      clouds.emplace_back ("plane", randomPoints (8000, seed));
       for (Eigen::Vector3d& p : clouds.back ().second)
         p.z () = noise / std::sqrt (8000.0) * random.normal ();
     }
     // Two balls, one in the other, look as uneven as leaves, but have two dimensions.
     clouds.push_back ({"shells", {}});
     for (const double radius : {1.0, 0.85})
-      for (const Eigen::Vector3d& p : samples::surface (SurfaceKind::SPHERE, 1000))
-        clouds.back ().second.emplace_back (radius * (p + 0.3 * samples::normalVector (random)));
+      for (const Eigen::Vector3d& p : surface (SurfaceKind::SPHERE, 1000))
+        clouds.back ().second.emplace_back (radius * (p + 0.3 * normalVector (random)));
     // In a ball of 320 points around any of theirs, three plates are hardly less than a volume.
-    clouds.emplace_back ("plates", samples::randomPoints (1500, seed));
+    clouds.emplace_back ("plates", randomPoints (1500, seed));
     for (std::size_t i = 0; i < 1500; ++i) {
       Eigen::Vector3d& p = clouds.back ().second[i];
       p = Eigen::Vector3d (std::sqrt (500.0) * p.x (), std::sqrt (500.0) * p.y (),
                            2.5 * static_cast<double> (i % 3)) +
-          0.3 * samples::normalVector (random);
+          0.3 * normalVector (random);
     }
   }
   for (const auto& [name, positions] : clouds)
@@ -158,8 +158,8 @@ TEST (Scatter, SurfacesAreNoneHoweverNoisyOrThin)
 // A few points far behind a ball, ever farther apart, have most of the area; a coarse wall is one.
 TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
 {
-  const Positions ball = samples::placed (samples::surface (SurfaceKind::SPHERE, 2000),
-                                          Eigen::Vector3d::Zero (), 0.08); // radius 1
+  const Positions ball =
+      placed (surface (SurfaceKind::SPHERE, 2000), Eigen::Vector3d::Zero (), 0.08); // radius 1
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     RandomStream random (seed);
     Positions strewn = ball, wall = ball;

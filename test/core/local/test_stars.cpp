@@ -18,11 +18,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::makeNeighborhoods;
-using samples::Neighborhoods;
-using samples::PI;
-using samples::Positions;
-using samples::Sheet;
+using namespace samples;
 
 // Points of two parallel sheets of side 1, `gap` spacings apart. Their heights have opposite signs.
 Positions
@@ -31,9 +27,8 @@ twoSheets (double gap)
   const double step = 1.0 / 30.0;
   Positions points;
   for (const int side : {-1, 1}) {
-    const Sheet sheet =
-        samples::fillOutlines ({samples::resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step,
-                               0.35, static_cast<std::uint64_t> (10 + side));
+    const Sheet sheet = fillOutlines ({resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step,
+                                      0.35, static_cast<std::uint64_t> (10 + side));
     for (const Eigen::Vector3d& p : sheet.positions)
       points.emplace_back (p.x (), p.y (), 0.5 * side * gap * step);
   }
@@ -96,7 +91,7 @@ expectSane (const Neighborhoods& made)
 
 TEST (TangentPlanes, OfANoisyPlane)
 {
-  Positions plane = samples::disc (0.05, 1).positions;
+  Positions plane = disc (0.05, 1).positions;
   RandomStream random (2);
   const Eigen::Vector3d normal = Eigen::Vector3d (1, -2, 4).normalized ();
   const Eigen::Quaterniond turn =
@@ -118,7 +113,7 @@ TEST (TangentPlanes, OfANoisyPlane)
 
 TEST (Stars, OpenAtTheBorderOnly)
 {
-  const Sheet sheet = samples::disc (0.05, 4);
+  const Sheet sheet = disc (0.05, 4);
   const Neighborhoods made = makeNeighborhoods (sheet.positions);
   expectSane (made);
   for (std::size_t p = 0; p < made.points.positions.size (); ++p) {
@@ -143,7 +138,7 @@ TEST (Stars, TheFilterKeepsSheetsApart)
 
 TEST (Stars, TheFilterLeavesASingleSheetAlone)
 {
-  const Sheet sheet = samples::disc (0.05, 5);
+  const Sheet sheet = disc (0.05, 5);
   const Stars filtered = makeNeighborhoods (sheet.positions, true).geometry.stars;
   const Stars plain = makeNeighborhoods (sheet.positions, false).geometry.stars;
   EXPECT_EQ (filtered.neighbors.offsets, plain.neighbors.offsets);
@@ -175,10 +170,8 @@ TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
 TEST (LocalGeometry, CopiesRowsOfSomePoints)
 {
   RandomStream random (7);
-  const LocalGeometry from =
-      makeNeighborhoods (samples::jitteredGrid (12, 12, 1.0, 0.4, random)).geometry;
-  const LocalGeometry before =
-      makeNeighborhoods (samples::jitteredGrid (12, 12, 1.0, 0.1, random)).geometry;
+  const LocalGeometry from = makeNeighborhoods (jitteredGrid (12, 12, 1.0, 0.4, random)).geometry;
+  const LocalGeometry before = makeNeighborhoods (jitteredGrid (12, 12, 1.0, 0.1, random)).geometry;
   LocalGeometry to = before;
   const std::vector<Index> copied{0, 50, 51, 143};
   copyRows (from, copied, to);
@@ -197,29 +190,6 @@ TEST (LocalGeometry, CopiesRowsOfSomePoints)
       EXPECT_EQ (to.stars.offsets_in_plane[first + i],
                  source.stars.offsets_in_plane[source.stars.neighbors.offsets[p] + i]);
   }
-}
-
-// Lines on a wavy sheet. Where they are half as far apart as the neighbours reach, or as far, a few
-// neighbours lie on one of the lines beside.
-TEST (Stars, LinesOfAnyDistanceMakeOneSheet)
-{
-  for (const double apart : {3.0, 5.0, 7.0, 8.0, 8.5, 9.0, 9.5, 10.0, 10.5, 12.0})
-    for (const double jitter : {0.0, 0.4}) {
-      RandomStream random (1);
-      Positions points;
-      for (int line = 0; line < 16; ++line) {
-        const double y = apart * line, begin = random.uniform ();
-        for (int i = 0; i < 150; ++i) {
-          const double x = begin + i + jitter * (2.0 * random.uniform () - 1.0);
-          points.emplace_back (x, y, 20.0 * std::sin (x / 30.0) * std::cos (y / 35.0));
-        }
-      }
-      const Report report = reconstruct (points, {}).report;
-      ASSERT_EQ (report.status, RunStatus::SUCCESS);
-      EXPECT_EQ (report.check.components, 1U) << apart << " " << jitter;
-      EXPECT_EQ (report.check.loops.size (), 1U) << apart << " " << jitter;
-      EXPECT_EQ (report.check.self_intersections, 0U) << apart << " " << jitter;
-    }
 }
 
 using Neighbors = std::vector<PlanarNeighbor>;
@@ -288,11 +258,7 @@ openingAngleByBruteForce (const Neighbors& neighbors)
   std::vector<double> angles;
   for (const PlanarNeighbor& neighbor : neighbors)
     angles.push_back (std::atan2 (neighbor.offset.y (), neighbor.offset.x ()));
-  std::sort (angles.begin (), angles.end ());
-  double widest = angles.front () + 2.0 * PI - angles.back ();
-  for (std::size_t i = 1; i < angles.size (); ++i)
-    widest = std::max (widest, angles[i] - angles[i - 1]);
-  return widest;
+  return widestGap (angles);
 }
 
 // A closed star may begin anywhere: then from its smallest point on.

@@ -90,7 +90,7 @@ inline std::vector<Index>
 expectDisc (const TriangleMesh& mesh, std::size_t vertices)
 {
   expectConsistent (mesh);
-  const Topology topology = topologyOf (mesh.triangles);
+  const MeshTopology topology = topologyOf (mesh.triangles);
   EXPECT_EQ (topology.euler, 1);
   EXPECT_EQ (topology.vertices, vertices);
   EXPECT_EQ (topology.loops.size (), 1U);
@@ -226,24 +226,16 @@ struct TwoSheets
 {
   Positions positions;
   std::vector<Eigen::Vector3f> normals;
-  CsrLists neighbors; ///< the nearest of each point, by comparing all
+  CsrLists neighbors; ///< the nearest of each point
   TriangleMesh mesh;
 
-  TwoSheets (Mesh lower, const Mesh& upper, std::ptrdiff_t nearest)
+  TwoSheets (Mesh lower, const Mesh& upper, int nearest)
   {
     append (lower, upper);
     mesh = connected (lower);
     positions = lower.positions;
     normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    neighbors.offsets.push_back (0);
-    for (const Eigen::Vector3d& p : positions) {
-      std::vector<Index> order = indices (positions.size ());
-      std::sort (order.begin (), order.end (), [&] (Index a, Index b) {
-        return (positions[a] - p).squaredNorm () < (positions[b] - p).squaredNorm ();
-      });
-      neighbors.ids.insert (neighbors.ids.end (), order.begin () + 1, order.begin () + 1 + nearest);
-      neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
-    }
+    neighbors = nearestOf (positions, nearest);
   }
 };
 

@@ -14,9 +14,7 @@
 namespace pcl::floater {
 namespace {
 using facing_cases::makeBowl;
-using samples::connected;
-using samples::Mesh;
-using samples::Positions;
+using namespace samples;
 
 struct Form
 {
@@ -28,13 +26,13 @@ std::vector<Form>
 forms ()
 {
   const auto square = [] (const std::function<Eigen::Vector3d (double, double)>& shape) {
-    return samples::cells (40, 40, [&] (Index x, Index y) { return shape (x / 40.0, y / 40.0); });
+    return cells (40, 40, [&] (Index x, Index y) { return shape (x / 40.0, y / 40.0); });
   };
   const auto terrain = [&square] (const std::function<double (double, double)>& height) {
     return square ([&] (double u, double v) { return Eigen::Vector3d (u, v, height (u, v)); });
   };
   const auto tube = [] (Index rows) {
-    return samples::cells (
+    return cells (
         40, rows,
         [] (Index x, Index y) {
           return Eigen::Vector3d (std::cos (PI * x / 20.0), std::sin (PI * x / 20.0), 0.075 * y);
@@ -79,11 +77,11 @@ TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
     for (const bool is_turned : {false, true}) {
       Mesh given = form.mesh;
       if (is_turned)
-        samples::turnRound (given);
+        turnRound (given);
       TriangleMesh mesh = connected (given);
       EXPECT_EQ (faceOutwards (mesh, positions, {}, {}, 1).turned, is_turned ? 1U : 0U);
       EXPECT_TRUE (mesh.triangles == form.mesh.triangles);
-      samples::expectConsistent (mesh);
+      expectConsistent (mesh);
     }
   }
 }
@@ -107,8 +105,15 @@ TEST (Facing, GeneratedSurfacesFaceAsTheyShould)
       mesh.connect (one.positions.size (), 1);
       faceOutwards (mesh, one.positions, {}, {}, 1);
       EXPECT_TRUE (mesh.triangles == one.triangles);
-      samples::expectConsistent (mesh);
+      expectConsistent (mesh);
     }
+}
+
+MeshFacing
+faced (const Mesh& one, const FacingHints& hints = {})
+{
+  TriangleMesh mesh = connected (one);
+  return faceOutwards (mesh, one.positions, hints, {}, 1);
 }
 
 // Of a cap that is a share f of its sphere, the front sees all of the outside, the back 1 - f, and
@@ -116,9 +121,7 @@ TEST (Facing, GeneratedSurfacesFaceAsTheyShould)
 TEST (Facing, ACapIsSeenAsTheoryTells)
 {
   for (const double share : {0.3, 0.5, 0.7, 0.9}) {
-    const Mesh one = makeBowl (share);
-    TriangleMesh mesh = connected (one);
-    const MeshFacing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
+    const MeshFacing facing = faced (makeBowl (share));
     ASSERT_EQ (facing.objects.size (), 1U);
     const FacingObject& object = facing.objects.front ();
     EXPECT_EQ (object.rule, FacingRule::BODY);
@@ -132,9 +135,7 @@ TEST (Facing, ACapIsSeenAsTheoryTells)
 TEST (Facing, ABowlBecomesAValleyWhereItIsUnsure)
 {
   const auto certaintyOf = [] (double share, std::size_t turned) {
-    const Mesh one = makeBowl (share);
-    TriangleMesh mesh = connected (one);
-    const MeshFacing facing = faceOutwards (mesh, one.positions, {}, {}, 1);
+    const MeshFacing facing = faced (makeBowl (share));
     EXPECT_EQ (facing.turned, turned);
     return facing.objects.front ().certainty;
   };
@@ -147,11 +148,9 @@ TEST (Facing, ABowlBecomesAValleyWhereItIsUnsure)
 // Sensors that saw all of the surface are tested with the whole method.
 TEST (Facing, ASensorFromWhichHalfOfABodyIsHiddenIsNotFaced)
 {
-  const Mesh body = makeFacingCase (facing_cases::FAMILIES[0], 1);
-  TriangleMesh mesh = connected (body);
   FacingHints hints;
   hints.sensor = Eigen::Vector3d (2.0, 1.0, 1.0);
-  const MeshFacing facing = faceOutwards (mesh, body.positions, hints, {}, 1);
+  const MeshFacing facing = faced (makeFacingCase (facing_cases::FAMILIES[0], 1), hints);
   EXPECT_NE (facing.objects.front ().rule, FacingRule::SENSOR);
   EXPECT_EQ (facing.turned, 0U);
 }
@@ -160,13 +159,12 @@ TEST (Facing, WhatOneViewHasShownIsTurnedTogether)
 {
   // A bowl, whose inside was seen, and a sheet beside it.
   Mesh sheet = samples::sheet (10);
-  samples::turnRound (sheet);
-  const Mesh both = samples::beside (makeBowl (0.6), sheet);
+  turnRound (sheet);
+  const Mesh both = beside (makeBowl (0.6), sheet);
   FacingHints hints;
   for (const bool is_one_view : {false, true}) {
     hints.is_one_view = is_one_view;
-    TriangleMesh mesh = connected (both);
-    const MeshFacing facing = faceOutwards (mesh, both.positions, hints, {}, 1);
+    const MeshFacing facing = faced (both, hints);
     EXPECT_EQ (facing.objects.size (), is_one_view ? 1U : 2U);
     EXPECT_EQ (facing.turned, is_one_view ? 0U : 1U);
   }

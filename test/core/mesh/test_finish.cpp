@@ -14,11 +14,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::connected;
-using samples::expectDisc;
-using samples::Positions;
-using samples::Sheet;
-using samples::unordered;
+using namespace samples;
 using Places = std::vector<Eigen::Vector2d>;
 
 Places
@@ -33,14 +29,14 @@ planView (const Positions& positions)
 // A round sheet as the library orders its points.
 struct SortedDisc
 {
-  samples::Neighborhoods made;
+  Neighborhoods made;
   std::vector<Index> loop;
   std::vector<std::uint8_t> is_border; // of each point
 
   SortedDisc (double step, std::uint64_t seed)
   {
-    const Sheet sheet = samples::disc (step, seed);
-    made = samples::makeNeighborhoods (sheet.positions);
+    const Sheet sheet = disc (step, seed);
+    made = makeNeighborhoods (sheet.positions);
     loop.resize (sheet.border);
     for (Index p = 0; p < made.points.size (); ++p) {
       const Index at = made.points.cloud_index[p];
@@ -115,12 +111,8 @@ TEST (Finish, PutsPointsInOrderThatThePlaneHasMixedUp)
 
 TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)
 {
-  SurfaceSpec spec;
-  spec.kind = SurfaceKind::FOLDED_SHEET;
-  spec.points = 3000;
-  spec.gap = 1.5;
-  spec.noise = 0.25;
-  const Input input = samples::asInput (generateSurface (spec));
+  const Input input =
+      asInput (generateSurface ({SurfaceKind::FOLDED_SHEET, 3000, 1, 1.0, 0.25, 0.0, 1.5}));
   Options options;
   const Report repaired = reconstruct (input, options).report;
   options.remove_self_intersections = false;
@@ -135,18 +127,12 @@ TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)
 // Noise is repaired once, after the points that lie on others are back.
 TEST (Finish, NoiseOfStackedPointsIsRepaired)
 {
-  SurfaceSpec spec;
-  spec.kind = SurfaceKind::TORUS;
-  spec.points = 3000;
-  spec.noise = 1.0;
-  samples::Positions positions = generateSurface (spec);
+  Positions positions = surface (SurfaceKind::TORUS, 3000, 1.0);
   RandomStream random (7);
   const std::size_t alone = positions.size ();
-  for (std::size_t p = 0; p < alone; ++p) {
-    const Eigen::Vector3d offset (random.normal (), random.normal (), random.normal ());
-    positions.push_back (positions[p] + 0.002 * offset);
-  }
-  const Input input = samples::asInput (positions);
+  for (std::size_t p = 0; p < alone; ++p)
+    positions.emplace_back (positions[p] + 0.002 * normalVector (random));
+  const Input input = asInput (positions);
   Options options;
   const Report repaired = reconstruct (input, options).report;
   options.remove_self_intersections = false;
@@ -159,12 +145,12 @@ TEST (Finish, NoiseOfStackedPointsIsRepaired)
 TEST (Finish, ATorusLaidOutAsADiscIsRefused)
 {
   constexpr Index AROUND = 60;
-  const samples::Positions positions = samples::torus (AROUND, 24).positions;
+  const Positions positions = torus (AROUND, 24).positions;
   Options options;
   options.disc.boundary.loop = {0,          1,     2, AROUND + 2, 2 * AROUND + 2, 2 * AROUND + 1,
                                 2 * AROUND, AROUND}; // around a square of 2 x 2 cells
   options.topology = Topology::DISC;
-  const Result result = reconstruct (samples::asInput (positions), options);
+  const Result result = reconstruct (asInput (positions), options);
   EXPECT_EQ (result.report.status, RunStatus::NOT_A_DISC);
   EXPECT_NE (result.report.message.find ("folded"), std::string::npos) << result.report.message;
   EXPECT_TRUE (result.triangles.empty ());

@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::Positions;
+using namespace samples;
 
 TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
 {
@@ -36,7 +36,7 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
       for (std::size_t j = 1; j <= stride; ++j)
         step = std::max (step, (positions[(i + j) % count] - positions[i]).norm ());
     BoundaryLoop loop;
-    loop.points = samples::indices (count);
+    loop.points = indices (count);
     measureLoop (loop, positions, std::vector<float> (count, 0.1F));
     EXPECT_LE (loop.width, exact);
     EXPECT_GE (loop.width, count <= 256 ? exact : exact - 2.0 * step);
@@ -152,7 +152,7 @@ struct TriangularSheet
 
   TriangularSheet (Index half, double inside)
   {
-    samples::Mesh whole = samples::cells (2 * half, 2 * half, [half] (Index x, Index y) {
+    Mesh whole = cells (2 * half, 2 * half, [half] (Index x, Index y) {
       return Eigen::Vector3d (x - 0.5 * y - 0.5 * half, std::sqrt (0.75) * (1.0 * y - half), 0.0);
     });
     positions = whole.positions;

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that cross each other: all are found, and they are removed; what is cut off on request.
+// Triangles that cross each other: all are found and told; what is cut off on request.
 #include "mesh/self_intersections.h"
 
-#include "mesh/flaw_repair.h"
 #include "mesh/known_meshes.h"
 #include "mesh/trimming.h"
-#include "mesh/vertex_stars.h"
 #include "report/findings.h"
 #include "report/report_mesh.h"
 
@@ -14,13 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::asInput;
-using samples::beside;
-using samples::Mesh;
-using samples::Positions;
-using samples::sheet;
-using samples::torus;
-using samples::unordered;
+using namespace samples;
 
 std::vector<CrossingPair>
 crossingOf (const Mesh& mesh)
@@ -65,13 +57,11 @@ Mesh
 randomTriangles (std::size_t triangles, std::size_t fans, std::uint64_t seed)
 {
   RandomStream random (seed);
-  const auto anywhere = [&random] {
-    return Eigen::Vector3d (random.uniform (), random.uniform (), random.uniform ());
-  };
+  const auto anywhere = [&random] { return uniformVector (random); };
   Mesh triangle{{}, {{0, 1, 2}}}, fan, all;
   for (std::size_t t = 0; t < triangles; ++t) {
     triangle.positions = {0.2 * anywhere (), 0.2 * anywhere (), 0.2 * anywhere ()};
-    samples::append (all, triangle, anywhere ());
+    append (all, triangle, anywhere ());
   }
   for (Index i = 0; i < 7; ++i)
     fan.triangles.push_back ({0, 1 + i, 1 + (i + 1) % 7});
@@ -79,7 +69,7 @@ randomTriangles (std::size_t triangles, std::size_t fans, std::uint64_t seed)
     fan.positions.assign (1, Eigen::Vector3d::Zero ());
     for (int i = 0; i < 7; ++i)
       fan.positions.emplace_back (0.2 * (anywhere () - Eigen::Vector3d::Constant (0.5)));
-    samples::append (all, fan, anywhere ());
+    append (all, fan, anywhere ());
   }
   return all;
 }
@@ -98,82 +88,15 @@ TEST (SelfIntersections, AllPairsAreFound)
   }
 }
 
-constexpr Index SWAPPED_SIDE = 8;
-constexpr Index SWAPPED_POINTS = (SWAPPED_SIDE + 1) * (SWAPPED_SIDE + 1);
-
-// Two sheets of 0.1 mean spacing; points of the upper one are swapped with those below, so that
-// triangles cross.
-struct Swapped : samples::TwoSheets
+// All warnings on a mesh.
+std::string
+warningOf (const Points& points, const std::vector<Triangle>& triangles,
+           const MeshExamination& found)
 {
-  std::vector<float> spacing;
-
-  explicit Swapped (const std::vector<Index>& swapped)
-      : TwoSheets (jittered ({0, 0, 0}), jittered ({0.03, 0.04, 0.06}), 30),
-        spacing (positions.size (), 0.1F)
-  {
-    for (const Index p : swapped)
-      samples::exchange (mesh, p, p + SWAPPED_POINTS);
-  }
-
-  static Mesh jittered (const Eigen::Vector3d& shift)
-  {
-    Mesh mesh = sheet (SWAPPED_SIDE);
-    RandomStream random (SWAPPED_SIDE);
-    for (Eigen::Vector3d& p : mesh.positions)
-      p += shift + 0.02 * Eigen::Vector3d (random.uniform (), random.uniform (), random.uniform ());
-    return mesh;
-  }
-
-  std::vector<CrossingPair> crossing () const { return crossingOf ({positions, mesh.triangles}); }
-
-  // Expects two discs of all points, and what is told of the pairs that are left.
-  Repairs remove (const RepairLimits& limits = {})
-  {
-    CrossingPairs pairs = findSelfIntersections (mesh.triangles, positions, 1);
-    const Repairs done =
-        repairFlaws (mesh, pairs, neighbors, TriangleCost (positions, normals, &spacing), positions,
-                     Repair::AT_THE_END, {}, limits, 1);
-    EXPECT_EQ (crossing (), pairs);
-    samples::expectConsistent (mesh);
-    const samples::Topology topology = samples::topologyOf (mesh.triangles);
-    EXPECT_EQ (topology.vertices, positions.size ());
-    EXPECT_EQ (topology.euler, 2);
-    return done;
-  }
-};
-
-TEST (SelfIntersections, AreRemovedByMovesAndNothingElseChanges)
-{
-  Swapped sheets ({30, 50});
-  EXPECT_GE (sheets.crossing ().size (), 4U);
-  const samples::Topology before = samples::topologyOf (sheets.mesh.triangles);
-  const Repairs done = sheets.remove ();
-  EXPECT_TRUE (sheets.crossing ().empty ());
-  EXPECT_GE (done.moves + done.flips, 2U);
-  EXPECT_TRUE (samples::foldedEdges (sheets.mesh.triangles, sheets.positions).empty ());
-  EXPECT_EQ (samples::topologyOf (sheets.mesh.triangles).loops, before.loops);
-}
-
-// Where flips and moves of single points no longer help, patches are taken out and put back.
-TEST (SelfIntersections, AreRemovedByPatchesWhereMovesDoNotHelp)
-{
-  RepairLimits moves_only;
-  moves_only.rebuilt_orders = 0;
-  std::size_t left_by_moves = 0, left = 0, rebuilds = 0;
-  RandomStream random (12);
-  for (int round = 0; round < 6; ++round) {
-    std::vector<Index> swapped;
-    for (Index p = 0; p < SWAPPED_POINTS; ++p)
-      if (random.uniform () < 0.2)
-        swapped.push_back (p);
-    Swapped by_moves (swapped), sheets (swapped);
-    by_moves.remove (moves_only);
-    left_by_moves += by_moves.crossing ().size ();
-    rebuilds += sheets.remove ().rebuilds;
-    left += sheets.crossing ().size ();
-  }
-  EXPECT_GT (rebuilds, 0U);
-  EXPECT_LT (left, left_by_moves);
+  Report report;
+  EXPECT_FALSE (reportMesh (points, triangles, found, {}, {}, {}, report));
+  describeFindings (report);
+  return testing::PrintToString (report.warnings);
 }
 
 // Needles across each other like the threads of a cloth: each overlaps half of all others.
@@ -194,14 +117,11 @@ TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
   EXPECT_EQ (pairs, findSelfIntersections (triangles, positions, 2));
   EXPECT_GT (pairs.size (), 0U);
   EXPECT_GT (pairs.untested.size (), NEEDLES / 2);
-  const Points points = samples::pointsAt (positions);
+  const Points points = pointsAt (positions);
   MeshExamination found;
   checkCrossing (triangles, points, 1, found);
   EXPECT_TRUE (found.check.has_more_self_intersections);
-  Report report;
-  ASSERT_FALSE (reportMesh (points, triangles, found, {}, {}, {}, report));
-  describeFindings (report);
-  EXPECT_NE (testing::PrintToString (report.warnings).find ("more than"), std::string::npos);
+  EXPECT_NE (warningOf (points, triangles, found).find ("more than"), std::string::npos);
   // What was not tested is cut off, too: no two triangles of the rest cross.
   TriangleMesh mesh;
   mesh.triangles = triangles;
@@ -212,25 +132,32 @@ TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
   EXPECT_TRUE (findSelfIntersections (mesh.triangles, positions, 1).empty ());
 }
 
+// A sheet, and another one that stands upright in it.
+Mesh
+crossedSheets ()
+{
+  Mesh mesh = sheet (10);
+  append (mesh, cells (10, 10, [] (Index x, Index y) {
+            return Eigen::Vector3d (0.1 * x + 0.013, 0.47, 0.1 * y - 0.52);
+          }));
+  return mesh;
+}
+
 TEST (SelfIntersections, AreInTheReportWithPlaces)
 {
-  const Swapped sheets ({40});
-  const std::vector<Triangle>& triangles = sheets.mesh.triangles;
-  const Points points = samples::pointsAt (sheets.positions);
+  const Mesh mesh = crossedSheets ();
+  const Points points = pointsAt (mesh.positions);
   MeshExamination found;
-  checkCrossing (triangles, points, 1, found);
-  const std::vector<CrossingPair> pairs = sheets.crossing ();
-  ASSERT_FALSE (pairs.empty ());
+  checkCrossing (mesh.triangles, points, 1, found);
+  const std::vector<CrossingPair> pairs = crossingOf (mesh);
+  ASSERT_GT (pairs.size (), 10U);
   const std::vector<std::array<std::uint32_t, 2>>& at = found.check.self_intersections_at;
-  ASSERT_EQ (at.size (), std::min<std::size_t> (pairs.size (), 10));
+  ASSERT_EQ (at.size (), 10U);
   for (std::size_t i = 0; i < at.size (); ++i) {
-    EXPECT_EQ (at[i][0], points.cloud_index[triangles[pairs[i].first][0]]);
-    EXPECT_EQ (at[i][1], points.cloud_index[triangles[pairs[i].second][0]]);
+    EXPECT_EQ (at[i][0], points.cloud_index[mesh.triangles[pairs[i].first][0]]);
+    EXPECT_EQ (at[i][1], points.cloud_index[mesh.triangles[pairs[i].second][0]]);
   }
-  Report report;
-  ASSERT_FALSE (reportMesh (points, triangles, found, {}, {}, {}, report));
-  describeFindings (report);
-  EXPECT_NE (testing::PrintToString (report.warnings)
+  EXPECT_NE (warningOf (points, mesh.triangles, found)
                  .find (std::to_string (pairs.size ()) + " pairs of triangles cross"),
              std::string::npos);
 }
@@ -259,7 +186,7 @@ trim (Mesh& mesh, const TrimmingOptions& options)
 {
   TriangleMesh connected = samples::connected (mesh);
   const Trimming trimming =
-      trimMesh (connected, samples::pointsAt (mesh.positions),
+      trimMesh (connected, pointsAt (mesh.positions),
                 std::vector<float> (mesh.positions.size (), 0.1F), options, 1);
   EXPECT_EQ (trimming.triangles, mesh.triangles.size () - connected.triangles.size ());
   // Points that were vertices and are none now.
@@ -274,7 +201,7 @@ trim (Mesh& mesh, const TrimmingOptions& options)
   for (const Triangle& t : unordered (connected.triangles))
     EXPECT_EQ (before.count (t), 1U);
   mesh.triangles = connected.triangles;
-  samples::expectConsistent (connected);
+  expectConsistent (connected);
   return trimming;
 }
 
@@ -312,7 +239,7 @@ TEST (Trimming, AGapBecomesABoundary)
     EXPECT_EQ (trimming.triangles, 20U);
     EXPECT_TRUE (trimming.points.empty ());
     EXPECT_EQ (trimming.components, 0U);
-    const samples::Topology topology = samples::topologyOf (mesh.triangles);
+    const MeshTopology topology = topologyOf (mesh.triangles);
     EXPECT_EQ (topology.components, 2U);
     EXPECT_EQ (topology.loops.size (), 2U);
     EXPECT_EQ (topology.vertices, 121U);
@@ -323,26 +250,21 @@ TEST (Trimming, TrianglesThatCrossAreOpened)
 {
   const TrimmingOptions options{0.0, 0.0, true, 0};
   EXPECT_TRUE (asksForTrimming (options));
-  Mesh mesh = sheet (10);
-  EXPECT_EQ (trim (mesh, options).triangles, 0U);
-  // Another sheet stands upright in it.
-  samples::append (mesh, samples::cells (10, 10, [] (Index x, Index y) {
-                     return Eigen::Vector3d (0.1 * x + 0.013, 0.47, 0.1 * y - 0.52);
-                   }));
-  const std::vector<CrossingPair> pairs = findSelfIntersections (mesh.triangles, mesh.positions, 1);
-  ASSERT_GT (pairs.size (), 3U);
+  Mesh flat = sheet (10), mesh = crossedSheets ();
+  EXPECT_EQ (trim (flat, options).triangles, 0U);
+  const std::size_t pairs = crossingOf (mesh).size ();
   const Trimming trimming = trim (mesh, options);
   EXPECT_EQ (trimming.crossing, trimming.triangles);
   EXPECT_GT (trimming.triangles, 0U);
-  EXPECT_LT (trimming.triangles, 2 * pairs.size ());
-  EXPECT_TRUE (findSelfIntersections (mesh.triangles, mesh.positions, 1).empty ());
+  EXPECT_LT (trimming.triangles, 2 * pairs);
+  EXPECT_TRUE (crossingOf (mesh).empty ());
 }
 
 TEST (Trimming, WhateverIsCutTheMeshStaysAManifold)
 {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U})
     for (const std::size_t one_in : {2U, 3U, 5U, 10U, 30U})
-      for (const Mesh& whole : {sheet (20), samples::torus (30, 20), samples::annulus (40)}) {
+      for (const Mesh& whole : {sheet (20), torus (30, 20), annulus (40)}) {
         Mesh mesh = whole;
         RandomStream random (100 * seed + one_in);
         for (std::size_t p = 0; p < mesh.positions.size (); ++p)
@@ -356,7 +278,7 @@ TEST (Trimming, WhateverIsCutTheMeshStaysAManifold)
 
 TEST (Trimming, SmallComponents)
 {
-  Mesh mesh = samples::beside (sheet (4), samples::tetrahedron ());
+  Mesh mesh = beside (sheet (4), tetrahedron ());
   EXPECT_EQ (trim (mesh, smallestComponent (4)).triangles, 0U);
   Trimming trimming = trim (mesh, smallestComponent (5));
   EXPECT_EQ (trimming.triangles, 4U);
@@ -375,7 +297,7 @@ TEST (Trimming, NothingLeftIsAFailure)
   for (const auto& [trimming, cause] : cases) {
     Options options;
     options.trimming = trimming;
-    const Result result = reconstruct (asInput (samples::disc (0.1, 1).positions), options);
+    const Result result = reconstruct (asInput (disc (0.1, 1).positions), options);
     EXPECT_EQ (result.report.status, RunStatus::DEGENERATE);
     EXPECT_NE (result.report.message.find ("no triangle is left"), std::string::npos);
     EXPECT_NE (result.report.message.find (cause), std::string::npos) << result.report.message;

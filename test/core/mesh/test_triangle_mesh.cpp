@@ -18,16 +18,13 @@
 
 namespace pcl::floater {
 namespace {
-using samples::connected;
-using samples::expectConsistent;
-using samples::Mesh;
-using samples::Positions;
+using namespace samples;
 
 // Cells of a square grid, each cut in two.
 std::vector<Triangle>
 gridTriangles (Index side)
 {
-  return samples::sheet (side - 1).triangles;
+  return sheet (side - 1).triangles;
 }
 
 TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
@@ -50,7 +47,7 @@ TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
       expectConsistent (mesh);
   }
   EXPECT_GT (flips, 300U);
-  EXPECT_EQ (samples::expectDisc (mesh, 136).size (), 20U);
+  EXPECT_EQ (expectDisc (mesh, 136).size (), 20U);
 }
 
 // Triangles of a large grid with points and triangles in random order.
@@ -58,7 +55,7 @@ std::vector<Triangle>
 mixedGrid (Index side)
 {
   std::vector<Triangle> triangles = gridTriangles (side);
-  const std::vector<Index> place = samples::permutation (side * side, 1);
+  const std::vector<Index> place = permutation (side * side, 1);
   for (Triangle& t : triangles)
     for (Index& p : t)
       p = place[p];
@@ -123,7 +120,7 @@ TEST (TriangleMesh, ComponentsAreNumberedByTheirFirstTriangles)
 TriangleMesh
 expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {})
 {
-  const samples::Topology before = samples::topologyOf (mesh.triangles);
+  const MeshTopology before = topologyOf (mesh.triangles);
   TriangleMesh result = connected (mesh);
   std::vector<Index> added;
   for (const Eigen::Vector3d& p : points) {
@@ -132,7 +129,7 @@ expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {}
   }
   EXPECT_EQ (splitVertices (result, mesh.positions, added, limits, 1), points.size ());
   expectConsistent (result);
-  const samples::Topology after = samples::topologyOf (result.triangles);
+  const MeshTopology after = topologyOf (result.triangles);
   EXPECT_EQ (after.vertices, before.vertices + points.size ());
   EXPECT_EQ (after.euler, before.euler);
   EXPECT_EQ (after.components, before.components);
@@ -143,7 +140,7 @@ expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {}
 std::size_t
 foldsOf (const TriangleMesh& mesh, const Positions& positions)
 {
-  return samples::foldedEdges (mesh.triangles, positions).size ();
+  return foldedEdges (mesh.triangles, positions).size ();
 }
 
 TEST (VertexSplits, TopologyStaysWhereverPointsAre)
@@ -152,15 +149,14 @@ TEST (VertexSplits, TopologyStaysWhereverPointsAre)
   Mesh lone;
   lone.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   lone.triangles = {{0, 1, 2}};
-  for (const Mesh& mesh : {lone, samples::tetrahedron (), samples::sheet (4), samples::annulus (9),
-                           samples::torus (9, 5), samples::beside (samples::sheet (3), lone)})
+  for (const Mesh& mesh :
+       {lone, tetrahedron (), sheet (4), annulus (9), torus (9, 5), beside (sheet (3), lone)})
     for (const double offset : {1e-12, 0.01, 0.1, 1.0}) {
       SCOPED_TRACE (offset);
       Positions points;
-      for (int i = 0; i < 150; ++i) {
-        const Eigen::Vector3d way (random.normal (), random.normal (), random.normal ());
-        points.emplace_back (mesh.positions[random.below (mesh.positions.size ())] + offset * way);
-      }
+      for (int i = 0; i < 150; ++i)
+        points.emplace_back (mesh.positions[random.below (mesh.positions.size ())] +
+                             offset * normalVector (random));
       expectSplits (mesh, points);
     }
 }
@@ -174,25 +170,24 @@ TEST (VertexSplits, FlatStaysFlat)
     inside.emplace_back (0.05 + 0.019 * i, 0.03 + 0.37 * (i % 2) + 0.007 * i, 0.0);
   const TriangleMesh mesh = expectSplits (sheet, inside);
   positions.insert (positions.end (), inside.begin (), inside.end ());
-  EXPECT_NEAR (samples::areaOf (mesh.triangles, positions), 0.36, 1e-12);
+  EXPECT_NEAR (areaOf (mesh.triangles, positions), 0.36, 1e-12);
   EXPECT_EQ (foldsOf (mesh, positions), 0U);
   // Beside the boundary, a point joins it: one more edge.
   const TriangleMesh wider = expectSplits (sheet, {{0.33, -0.04, 0.0}});
-  EXPECT_EQ (samples::topologyOf (wider.triangles).loops.front ().size (), 25U);
+  EXPECT_EQ (topologyOf (wider.triangles).loops.front ().size (), 25U);
 }
 
 // Above each vertex of a bent sheet a stack of three points: no cut of a fan needs a fold.
 TEST (VertexSplits, StacksAreConnectedWithoutFolds)
 {
-  const Mesh sheet = samples::cells (20, 20, [] (Index x, Index y) {
+  const Mesh sheet = cells (20, 20, [] (Index x, Index y) {
     return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.1 * std::sin (0.5 * x));
   });
   RandomStream random (5);
   Positions positions = sheet.positions, stacked;
   for (const Eigen::Vector3d& p : sheet.positions)
     for (int i = 0; i < 3; ++i)
-      stacked.emplace_back (
-          p + 0.003 * Eigen::Vector3d (random.normal (), random.normal (), random.normal ()));
+      stacked.emplace_back (p + 0.003 * normalVector (random));
   const TriangleMesh mesh = expectSplits (sheet, stacked);
   positions.insert (positions.end (), stacked.begin (), stacked.end ());
   SplitLimits bending_only;
@@ -211,14 +206,14 @@ TEST (VertexSplits, TheBoundaryPassesEachStackOnce)
   const Mesh sheet = samples::sheet (20);
   RandomStream random (6);
   Positions stacked;
-  const std::vector<Index> rim = samples::topologyOf (sheet.triangles).loops.front ();
+  const std::vector<Index> rim = topologyOf (sheet.triangles).loops.front ();
   for (const Index p : rim) {
     const Eigen::Vector3d& at = sheet.positions[p];
     stacked.emplace_back (at + 0.003 * (sheet.positions[sheet.positions.size () / 2] - at) +
                           Eigen::Vector3d (0, 0, 0.003 * random.normal ()));
   }
   const TriangleMesh mesh = expectSplits (sheet, stacked);
-  EXPECT_LE (samples::topologyOf (mesh.triangles).loops.front ().size (), rim.size () + 4);
+  EXPECT_LE (topologyOf (mesh.triangles).loops.front ().size (), rim.size () + 4);
 }
 
 // Right normals are tested with the tool, against a formula.
@@ -239,12 +234,12 @@ TEST (VertexNormals, PointsThatNoTriangleTellsOfHaveNone)
   const double nan = std::nan ("");
   const Positions positions{{0, 0, 0}, {1, 0, 0},     {0, 1, 0}, {5, 5, 5}, {1, 0, 0},
                             {2, 0, 0}, {nan, nan, 0}, {1, 1, 0}, {9, 0, 0}, {9, 9, 0}};
-  const samples::Triangles triangles{{0, 1, 2}, // one that counts
-                                     {1, 4, 2}, // two equal corners
-                                     {0, 1, 5}, // on one line
-                                     {1, 6, 2}, // not finite
-                                     {7, 8, 9}, // twice, from both sides
-                                     {7, 9, 8}, {3, 3, 3}};
+  const Triangles triangles{{0, 1, 2}, // one that counts
+                            {1, 4, 2}, // two equal corners
+                            {0, 1, 5}, // on one line
+                            {1, 6, 2}, // not finite
+                            {7, 8, 9}, // twice, from both sides
+                            {7, 9, 8}, {3, 3, 3}};
   const std::vector<Eigen::Vector3f> normals = vertexNormals (positions, triangles, 1);
   for (const std::size_t p : {0, 1, 2})
     EXPECT_EQ (normals[p], Eigen::Vector3f (0, 0, 1)) << p;

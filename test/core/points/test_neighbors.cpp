@@ -4,7 +4,7 @@
 // and after points were removed.
 #include "points/neighbors.h"
 
-#include "points/point_samples.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::indices;
-using samples::joined;
-using samples::placed;
-using samples::Positions;
-using samples::surface;
-using samples::workingPoints;
+using namespace samples;
 
 constexpr int NEIGHBORS = 20;
 constexpr double RADIUS = 2.5;
@@ -33,7 +28,7 @@ listsByTryingAll (const Positions& positions, const Rows& rows, std::size_t k, d
   CsrLists lists;
   lists.offsets.push_back (0);
   for (std::size_t i = 0; i < rows.size (); ++i) {
-    std::vector<Neighbor> others = samples::nearestByTryingAll (positions, positions[rows[i]], 202);
+    std::vector<Neighbor> others = nearestByTryingAll (positions, positions[rows[i]], 202);
     others.erase (std::find_if (others.begin (), others.end (),
                                 [&] (const Neighbor& other) { return other.point == rows[i]; }));
     double reach = 0.0;
@@ -63,9 +58,8 @@ scattered ()
   Positions points = joined (surface (SurfaceKind::TORUS, 2500),
                              placed (surface (SurfaceKind::TORUS, 800), {150.0, 0.0, 20.0}, 0.2));
   for (int cluster = 0; cluster < 3; ++cluster)
-    points =
-        joined (points, placed (samples::randomPoints (9, 7U + static_cast<unsigned> (cluster)),
-                                300.0 * Eigen::Vector3d::Unit (cluster)));
+    points = joined (points, placed (randomPoints (9, 7U + static_cast<unsigned> (cluster)),
+                                     300.0 * Eigen::Vector3d::Unit (cluster)));
   for (int i = 1; i <= 12; ++i)
     points.emplace_back (100.0 * std::cos (i), 100.0 * std::sin (i), 3.0 * i * i);
   return points;
@@ -85,7 +79,7 @@ someOf (std::size_t points)
 Positions
 plane (std::size_t count)
 {
-  Positions points = samples::randomPoints (count, 1);
+  Positions points = randomPoints (count, 1);
   for (Eigen::Vector3d& p : points)
     p = {40.0 * p.x () * p.x (), 40.0 * p.y (), 0.0};
   return points;
@@ -126,24 +120,23 @@ nearestByBlocks (const Positions& positions, std::size_t blocks, bool& cut_again
 TEST (NearestNeighbors, DoNotDependOnBlocks)
 {
   std::vector<Positions> clouds;
-  for (const Positions& cloud :
-       {scattered (), surface (SurfaceKind::HEIGHT_FIELD, 3000, 0.0, 50.0),
-        surface (SurfaceKind::FOLDED_SHEET, 2000), surface (SurfaceKind::SPHERE, 2000, 0.3),
-        samples::randomPoints (700, 3)})
+  for (const Positions& cloud : {scattered (), surface (SurfaceKind::HEIGHT_FIELD, 3000, 0.0, 50.0),
+                                 surface (SurfaceKind::FOLDED_SHEET, 2000),
+                                 surface (SurfaceKind::SPHERE, 2000, 0.3), randomPoints (700, 3)})
     clouds.push_back (workingPoints (cloud).positions);
   for (const std::size_t few : {0U, 1U, 2U, 5U, 20U, 21U, 30U})
-    clouds.push_back (samples::randomPoints (few, 6));
+    clouds.push_back (randomPoints (few, 6));
   // The squares of such distances underflow to 0: all points of a crowd are equally near, and their
   // order is that of their indices. So a point is not always among its own k + 1 results.
-  Positions crowd = samples::randomPoints (200, 8);
+  Positions crowd = randomPoints (200, 8);
   for (int i = 0; i < 60; ++i)
     crowd.emplace_back (-1e-170 * i, 0.0, 0.0);
   clouds.push_back (crowd);
   // Ties, which go by index: a cube, a line, and equal points; and squares that are no normal numbers.
   Positions cube, line, tiny, equal (30, Eigen::Vector3d (1, 2, 3));
-  for (const Index i : samples::permutation (1331, 4))
+  for (const Index i : permutation (1331, 4))
     cube.emplace_back (i % 11, i / 11 % 11, i / 121); // NOLINT (bugprone-integer-division)
-  for (const Index i : samples::permutation (500, 6)) {
+  for (const Index i : permutation (500, 6)) {
     line.emplace_back (0.1 * i, -0.2 * i, 0.3 * i);
     tiny.emplace_back (1e-161 * (i % 20), 1e-161 * (i / 20), 0.0); // NOLINT
   }
@@ -178,7 +171,7 @@ inBalls ()
 TEST (BallNeighbors, AreTheSixNearestAndUpToTwoHundredInABall)
 {
   // A crowd, a point with a ball that holds all of it, and a few with balls of few.
-  Positions crowded = placed (samples::randomPoints (1000, 3), {0, 0, 0}, 1e-3);
+  Positions crowded = placed (randomPoints (1000, 3), {0, 0, 0}, 1e-3);
   crowded.emplace_back (-1.0, 0.0, 0.0);
   crowded.emplace_back (1.0, 0.0, 0.0);
   for (int i = 0; i < 5; ++i)
@@ -239,7 +232,7 @@ private:
   void answer (Index cloud_index, std::size_t k, double radius, std::vector<Index>& answers) const
   {
     answers = unknown_;
-    for (const Neighbor& other : samples::nearestByTryingAll (positions_, cloud_[cloud_index], k))
+    for (const Neighbor& other : nearestByTryingAll (positions_, cloud_[cloud_index], k))
       if (std::sqrt (other.sqr_distance) <= radius)
         answers.insert (answers.end (), 2, chosen[other.point]);
     std::reverse (answers.begin (), answers.end ());
@@ -330,21 +323,20 @@ TEST (RenewNeighbors, FindsTheSameAsANewSearch)
   const auto expectRenewedAll = [] (const Positions& cloud, const std::vector<double>& shares) {
     expectRenewed (cloud, shares, cloud.size ());
   };
-  expectRenewedAll (samples::randomPoints (1500, 1), {0.0, 0.001, 0.02, 0.3, 0.9});
+  expectRenewedAll (randomPoints (1500, 1), {0.0, 0.001, 0.02, 0.3, 0.9});
   for (const std::size_t count : {1U, 2U, 5U, 12U, 25U})
-    expectRenewedAll (samples::randomPoints (count, count), {0.3, 1.0});
+    expectRenewedAll (randomPoints (count, count), {0.3, 1.0});
   // A grid is full of equal distances, where indices decide which points are the neighbours.
   Positions grid;
-  for (const Index i : samples::permutation (1000, 2))
+  for (const Index i : permutation (1000, 2))
     grid.emplace_back (i % 10, i / 10 % 10, i / 100); // NOLINT (bugprone-integer-division)
   expectRenewedAll (grid, {0.01, 0.2});
   RandomStream random (3);
   for (const double jitter : {0.0, 0.3})
-    expectRenewed (joined (samples::jitteredGrid (30, 30, 1.0, jitter, random),
+    expectRenewed (joined (jitteredGrid (30, 30, 1.0, jitter, random),
                            {{15.3, 14.8, 700.0}, {-90.0, 14.8, 3.0}, {15.1, 500.0, -33.0}}),
                    {0.0, 0.05}, 900);
-  expectRenewed (joined (samples::randomPoints (400, 5), Positions{{60.0, 0.0, 0.0}}), {0.05}, 400,
-                 true);
+  expectRenewed (joined (randomPoints (400, 5), Positions{{60.0, 0.0, 0.0}}), {0.05}, 400, true);
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 
 #include "points/neighbors.h"
 #include "points/noise.h"
-#include "points/point_samples.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -14,14 +14,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::indices;
-using samples::jitteredGrid;
-using samples::joined;
-using samples::normalVector;
-using samples::placed;
-using samples::Positions;
-using samples::surface;
-using samples::workingPoints;
+using namespace samples;
 
 // A jittered sheet of `side` x `side` points a unit apart, and copies of its first points, up to
 // `offset` away.
@@ -29,7 +22,7 @@ Positions
 stackedSheet (int side, std::size_t stacked, std::size_t copies, double offset, bool along_normal)
 {
   RandomStream random (7);
-  Positions points = samples::jitteredGrid (side, side, 1.0, 0.4, random);
+  Positions points = jitteredGrid (side, side, 1.0, 0.4, random);
   for (Eigen::Vector3d& p : points)
     p.z () = 3.0 * std::sin (0.1 * p.x ());
   const std::size_t n = points.size ();
@@ -37,7 +30,7 @@ stackedSheet (int side, std::size_t stacked, std::size_t copies, double offset, 
     for (std::size_t i = 0; i < std::min (stacked, n); ++i) {
       const Eigen::Vector3d way =
           along_normal ? Eigen::Vector3d (-0.3 * std::cos (0.1 * points[i].x ()), 0, 1)
-                       : samples::normalVector (random);
+                       : normalVector (random);
       points.emplace_back (points[i] +
                            offset * (0.1 + 0.9 * random.uniform ()) * way.normalized ());
     }
@@ -94,17 +87,17 @@ TEST (Net, HasOnePointOfEachStackAtItsMean)
 
 TEST (Net, IsNotForPointsThatLieSideBySide)
 {
-  Positions random = samples::randomPoints (20000, 2), lines;
+  Positions random = randomPoints (20000, 2), lines;
   for (Eigen::Vector3d& p : random)
     p.z () = 0.0;
   for (int x = 0; x < 400; ++x)
     for (int y = 0; y < 20; ++y)
       lines.emplace_back (x + 0.7 * std::sin (9.0 * x + y), 30.0 * y, 0.0);
   for (const Positions& cloud :
-       {random, lines, samples::surface (SurfaceKind::SPHERE, 5000, 0.3),
-        samples::surface (SurfaceKind::HEMISPHERE, 5000, 0.0, 30.0),
-        stackedSheet (40, 0, 0, 0, true), Positions{}, samples::randomPoints (3, 1),
-        stackedSheet (6, 36, 1, 0.1, true), stackedSheet (1, 1, 5, 1e-9, true)}) {
+       {random, lines, surface (SurfaceKind::SPHERE, 5000, 0.3),
+        surface (SurfaceKind::HEMISPHERE, 5000, 0.0, 30.0), stackedSheet (40, 0, 0, 0, true),
+        Positions{}, randomPoints (3, 1), stackedSheet (6, 36, 1, 0.1, true),
+        stackedSheet (1, 1, 5, 1e-9, true)}) {
     const auto [points, stacks] = chosen (cloud);
     EXPECT_EQ (stacks.points, 0U);
     EXPECT_EQ (points.size (), cloud.size ());
@@ -161,8 +154,7 @@ struct Cloud
   CsrLists neighbors;
 
   explicit Cloud (const Positions& positions)
-      : points (samples::workingPoints (positions)),
-        neighbors (findNearestNeighbors (points.positions, Rows::all (points.size ()), 20, 1))
+      : points (workingPoints (positions)), neighbors (nearestOf (points.positions, 20))
   {
   }
 
@@ -240,7 +232,7 @@ TEST (Noise, ThinSheetsAreNone)
     const Positions sheets =
         joined (jitteredGrid (60, 60, 1.0, 0.5, random),
                 placed (jitteredGrid (60, 60, 1.0, 0.5, random), {0.0, 0.0, gap}));
-    EXPECT_FALSE (reconstruct (samples::asInput (sheets), {}).report.denoised);
+    EXPECT_FALSE (reconstruct (asInput (sheets), {}).report.denoised);
   }
 }
 
@@ -253,7 +245,7 @@ TEST (Noise, DegenerateClouds)
     for (std::size_t i = 0; i < count; ++i)
       line.emplace_back (static_cast<double> (i), 0.0, 0.0);
     EXPECT_EQ (Cloud (line).noise ().noisy_points, 0U);
-    const Cloud cloud (samples::randomPoints (count, count));
+    const Cloud cloud (randomPoints (count, count));
     const Noise noise = cloud.noise ();
     EXPECT_TRUE (std::isfinite (noise.largest) && noise.median >= 0.0);
     for (const Eigen::Vector3d& p : cloud.projected ())
@@ -280,7 +272,7 @@ TEST (Projection, TakesMostOfTheNoiseOut)
 {
   RandomStream random (5);
   Positions sphere = surface (SurfaceKind::SPHERE, 4000, 0.0);
-  const double spacing = std::sqrt (4.0 * samples::PI / 4000.0);
+  const double spacing = std::sqrt (4.0 * PI / 4000.0);
   for (Eigen::Vector3d& p : sphere)
     p = p.normalized () + 0.4 * spacing * normalVector (random);
   EXPECT_LT (changeByProjection (Cloud (sphere),

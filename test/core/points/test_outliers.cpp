@@ -5,7 +5,7 @@
 
 #include "points/invalid_points.h"
 #include "points/neighbors.h"
-#include "points/point_samples.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -15,14 +15,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::asInput;
-using samples::indices;
-using samples::jitteredGrid;
-using samples::joined;
-using samples::ON_A_MAP;
-using samples::placed;
-using samples::Positions;
-using samples::surface;
+using namespace samples;
 using IndexList = std::vector<Index>;
 
 constexpr double LARGEST_FLOAT = std::numeric_limits<float>::max ();
@@ -100,10 +93,9 @@ TEST (GrossOutliers, LeaveTheMeshAsItIs)
   for (const Positions& usual : {clean, with_outlier}) {
     const Positions cloud = joined (usual, strays);
     const Result expected = reconstruct (asInput (usual), {});
-    const Result result = reconstruct (asInput (cloud), {});
-    ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
+    const Result result = meshOf (cloud);
     EXPECT_EQ (result.triangles, expected.triangles);
-    EXPECT_EQ (samples::topologyOf (result.triangles).vertices, 3000U);
+    EXPECT_EQ (topologyOf (result.triangles).vertices, 3000U);
     EXPECT_EQ (result.report.outliers, lastOf (cloud, cloud.size () - 3000));
     EXPECT_EQ (result.report.statistics.outlier_points, cloud.size () - 3000);
     EXPECT_EQ (result.report.statistics.working_points, 3000U);
@@ -125,10 +117,8 @@ TEST (GrossOutliers, StayIfOutliersAreToStayOrAreAQuarter)
   EXPECT_NE (failed.report.message.find ("point 3000"), std::string::npos);
   EXPECT_TRUE (failed.triangles.empty ());
   // Double precision can hold these.
-  const Result result =
-      reconstruct (asInput (joined (torus, {{1e8, 2e8, 0}, {-1e10, 0, 1e9}})), options);
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  const samples::Topology topology = samples::topologyOf (result.triangles);
+  const Result result = meshOf (joined (torus, {{1e8, 2e8, 0}, {-1e10, 0, 1e9}}), options);
+  const MeshTopology topology = topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_GE (topology.vertices, 3000U);
   EXPECT_TRUE (result.report.outliers.empty ());
@@ -142,7 +132,7 @@ TEST (GrossOutliers, StayIfOutliersAreToStayOrAreAQuarter)
 IndexList
 outliersOf (const Positions& positions, int k = 20, int threads = 1)
 {
-  Points points = samples::workingPoints (positions);
+  Points points = workingPoints (positions);
   const CsrLists neighbors =
       findNearestNeighbors (points.positions, Rows::all (points.size ()), k, threads);
   return removePoints (points, findOutliers (points.positions, neighbors, threads));
@@ -207,7 +197,7 @@ TEST (Outliers, SmallClustersFarAwayButNotSmallComponents)
     for (const Eigen::Vector3d& centre :
          Positions{{25.0, 25.0, 20.0}, {80.0, 25.0, 0.0}, {-500.0, -300.0, 0.0}})
       for (std::size_t i = 0; i < count; ++i)
-        points.emplace_back (centre + 0.3 * samples::normalVector (random));
+        points.emplace_back (centre + 0.3 * normalVector (random));
     EXPECT_EQ (outliersOf (points), lastOf (points, 3 * count));
   }
   // In the plane of the sheet, from 5 reaches of 1.3 spacings on.

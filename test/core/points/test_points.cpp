@@ -4,7 +4,7 @@
 #include "points/points.h"
 
 #include "points/coordinate_grid.h"
-#include "points/point_samples.h"
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::asInput;
-using samples::indices;
-using samples::ON_A_MAP;
-using samples::placed;
-using samples::Positions;
-using samples::surface;
-using samples::workingPoints;
+using namespace samples;
 using IndexPairs = std::vector<std::array<Index, 2>>;
 
 constexpr double INF = std::numeric_limits<double>::infinity ();
@@ -61,7 +55,7 @@ expectWorkable (const Points& points, const Positions& cloud)
 
 TEST (Points, AreTheDistinctFiniteOnes)
 {
-  const Positions random = samples::randomPoints (100, 4);
+  const Positions random = randomPoints (100, 4);
   Positions copies = random, not_finite = random;
   for (const std::size_t i : {50U, 7U, 7U, 99U})
     copies.push_back (random[i]);
@@ -80,8 +74,8 @@ TEST (Points, AreTheDistinctFiniteOnes)
     std::vector<Index> non_finite;
   };
   const std::vector<Case> cases{
-      {samples::placed (samples::randomPoints (2000, 1), {3.0, 40.0, -7.0}, 25.0), {}, {}},
-      {samples::randomPoints (70'000, 5), {}, {}}, // sorted in parts
+      {placed (randomPoints (2000, 1), {3.0, 40.0, -7.0}, 25.0), {}, {}},
+      {randomPoints (70'000, 5), {}, {}}, // sorted in parts
       {copies, {{100, 50}, {101, 7}, {102, 7}, {103, 99}}, {}},
       {not_finite, {}, {100, 101, 102, 103, 104, 105, 106, 107, 108}},
       {{}, {}, {}},
@@ -144,8 +138,7 @@ TEST (Points, ABoxAsSmallAsOneDigit)
 Points
 withFarPoints ()
 {
-  const Positions cloud =
-      samples::joined (samples::randomPoints (200, 9), {{100.0, 0.0, 0.0}, {50.0, -70.0, 0.0}});
+  const Positions cloud = joined (randomPoints (200, 9), {{100.0, 0.0, 0.0}, {50.0, -70.0, 0.0}});
   std::vector<Eigen::Vector3f> normals, front;
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     const float angle = 0.01F * static_cast<float> (i);
@@ -229,7 +222,7 @@ raster (double step, std::size_t one_in, const Eigen::Vector3d& place = {0, 0, 0
 CoordinateGrid
 gridOf (const Positions& cloud)
 {
-  const samples::Neighborhoods made = samples::makeNeighborhoods (cloud);
+  const Neighborhoods made = makeNeighborhoods (cloud);
   return findCoordinateGrid (made.points, made.geometry.spacing);
 }
 
@@ -282,7 +275,7 @@ TEST (CoordinateGrid, ARasterIsNoFlaw)
   for (const double step : {1.0, 0.5}) // half is the step of floats there
     EXPECT_EQ (gridOf (asFloats (raster (step, 1, ON_A_MAP))).step, 0.0);
   // Flat ones, and voxels of a solid's surface.
-  EXPECT_EQ (gridOf (samples::disc (0.05, 1).positions).step, 0.0);
+  EXPECT_EQ (gridOf (disc (0.05, 1).positions).step, 0.0);
   Positions voxels;
   for (int x = 0; x < 12; ++x)
     for (int y = 0; y < 12; ++y)
@@ -290,23 +283,6 @@ TEST (CoordinateGrid, ARasterIsNoFlaw)
         if (x % 11 == 0 || y % 11 == 0 || z % 11 == 0)
           voxels.emplace_back (x, y, z);
   EXPECT_EQ (gridOf (voxels).step, 0.0);
-}
-
-TEST (CoordinateGrid, TheReportWarns)
-{
-  const Positions fine = placed (surface (SurfaceKind::HEIGHT_FIELD, 3000), ON_A_MAP, 0.3);
-  const Result clean = reconstruct (asInput (fine), {});
-  EXPECT_EQ (clean.report.statistics.coordinate_step, 0.0);
-  EXPECT_TRUE (clean.report.warnings.empty ()) << clean.report.warnings.front ();
-  const Result result = reconstruct (asInput (asFloats (fine)), {});
-  ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
-  EXPECT_GT (result.report.statistics.coordinate_step, 0.1);
-  std::string warnings; // rounding to wide steps looks like noise, too
-  for (const std::string& warning : result.report.warnings)
-    warnings += warning + "\n";
-  for (const char* const text :
-       {"the coordinates are coarse: along y they are 0.5 apart, ", "subtract an origin"})
-    EXPECT_NE (warnings.find (text), std::string::npos) << warnings;
 }
 
 } // namespace

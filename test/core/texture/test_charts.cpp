@@ -13,27 +13,25 @@
 
 namespace pcl::floater {
 namespace {
-using samples::connected;
-using samples::Mesh;
+using namespace samples;
 using Plane = std::vector<Eigen::Vector2d>;
 
 MeshPiece
 chartOf (const Mesh& mesh)
 {
-  return cutOut (mesh.triangles, samples::indices (mesh.triangles.size ()), mesh.positions);
+  return cutOut (mesh.triangles, indices (mesh.triangles.size ()), mesh.positions);
 }
 
 ChartLayout
 layOut (const Mesh& mesh, const DescentLimits& limits = {})
 {
-  return layOutChart (mesh.triangles, samples::indices (mesh.triangles.size ()), mesh.positions,
-                      limits, 1);
+  return layOutChart (mesh.triangles, indices (mesh.triangles.size ()), mesh.positions, limits, 1);
 }
 
 Mesh
 noisySheet (Index side, double noise, std::uint64_t seed)
 {
-  Mesh mesh = samples::sheet (side);
+  Mesh mesh = sheet (side);
   RandomStream random (seed);
   for (Eigen::Vector3d& p : mesh.positions)
     p.z () = noise * random.normal ();
@@ -81,14 +79,13 @@ TEST (MeshPiece, LoopOfADiscOnly)
   EXPECT_EQ (loop[1], 1U);
   // Two triangles that meet at a point are no disc, either.
   const Mesh two{sheet.positions, {sheet.triangles[0], sheet.triangles[10]}};
-  for (const Mesh& none :
-       {samples::annulus (8), samples::torus (9, 7), samples::tetrahedron (), two})
+  for (const Mesh& none : {annulus (8), torus (9, 7), tetrahedron (), two})
     EXPECT_TRUE (chartOf (none).loop.empty () && layOut (none).uv.empty ());
 }
 
 TEST (DistortionDescent, DevelopsWhatCanBeDeveloped)
 {
-  Mesh tube = samples::sheet (12); // half of one
+  Mesh tube = sheet (12); // half of one
   for (Eigen::Vector3d& p : tube.positions) {
     const double angle = PI * p.x () / 1.2;
     p = Eigen::Vector3d (-std::cos (angle), p.y (), std::sin (angle));
@@ -109,7 +106,7 @@ TEST (DistortionDescent, DevelopsWhatCanBeDeveloped)
 TEST (DistortionDescent, GetsOnWhereTrianglesAreAllButDegenerate)
 {
   constexpr Index RINGS = 120, ROUND = 16;
-  Mesh bag = samples::grid (
+  Mesh bag = grid (
       ROUND, RINGS, 1 + RINGS * ROUND, // the lowest ring is one point
       [] (Index x, Index y) { return y == 0 ? 0 : 1 + (y - 1) * ROUND + x % ROUND; },
       [] (Index x, Index y) -> Eigen::Vector3d {
@@ -158,7 +155,7 @@ TEST (ChartLayout, RefinedForOtherPositions)
   refineLayout (sheet.triangles, sheet.positions, {}, 1, layout); // which cannot be better
   EXPECT_EQ (layout.uv, before);
   EXPECT_NEAR (layout.stretch, 1.0, 1e-6);
-  samples::Positions longer = sheet.positions;
+  Positions longer = sheet.positions;
   for (Eigen::Vector3d& p : longer)
     p.x () += std::max (0.0, p.x () - 0.5);
   refineLayout (sheet.triangles, longer, {}, 1, layout);
@@ -171,13 +168,13 @@ TEST (ChartLayout, RefinedForOtherPositions)
 // too large for that, it has no layout.
 TEST (ChartLayout, NothingLiesAboveItself)
 {
-  const Mesh stairs = samples::grid (
+  const Mesh stairs = grid (
       60, 4, 61 * 5, [] (Index x, Index y) { return y * 61 + x; },
       [] (Index x, Index y) {
         const double angle = 3.0 * PI * x / 60.0, radius = 2.0 - 0.3 * y;
         return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.02 * x);
       });
-  const Mesh roll = samples::grid (
+  const Mesh roll = grid (
       7, 79, 8 * 80, [] (Index x, Index y) { return y * 8 + x; },
       [] (Index x, Index y) {
         const double angle = 0.2 * y, radius = 1.0 + 0.1 * angle;
@@ -223,20 +220,20 @@ TEST (Charts, FacetsAreDiscs)
 TEST (Smoothing, MovesNoiseOnly)
 {
   // Bodies, saddles and creases stay to the last bit.
-  Mesh roof = samples::sheet (10);
+  Mesh roof = sheet (10);
   for (Eigen::Vector3d& p : roof.positions)
     p.z () = std::abs (p.x () - 0.5) - std::abs (p.y () - 0.5);
-  for (const Mesh& mesh : {samples::torus (40, 16), samples::tetrahedron (), roof})
+  for (const Mesh& mesh : {torus (40, 16), tetrahedron (), roof})
     EXPECT_EQ (smoothNoise (connected (mesh), mesh.positions, {}, 1), mesh.positions);
 
   Mesh noisy = noisySheet (20, 0.05, 1);
-  const auto sumOfSquares = [] (const samples::Positions& positions) {
+  const auto sumOfSquares = [] (const Positions& positions) {
     double sum = 0.0;
     for (const Eigen::Vector3d& p : positions)
       sum += p.z () * p.z ();
     return sum;
   };
-  samples::Positions smooth = smoothNoise (connected (noisy), noisy.positions, {}, 1);
+  Positions smooth = smoothNoise (connected (noisy), noisy.positions, {}, 1);
   EXPECT_LT (sumOfSquares (smooth), 0.25 * sumOfSquares (noisy.positions));
   // So it is one chart, or few.
   EXPECT_LE (findCharts (connected (noisy), smooth, false, {}, 1).count, 2U);
@@ -250,10 +247,10 @@ TEST (Smoothing, MovesNoiseOnly)
 // Depth that is measured in steps: flat between them.
 TEST (Smoothing, LevelsSteps)
 {
-  Mesh steps = samples::sheet (24);
+  Mesh steps = sheet (24);
   for (Eigen::Vector3d& p : steps.positions)
     p.z () = 0.3 * std::floor (p.x () / 0.4 + 0.1 * std::sin (20.0 * p.y ()));
-  const auto steepest = [&] (const samples::Positions& positions) {
+  const auto steepest = [&] (const Positions& positions) {
     std::vector<double> tilts;
     for (const Triangle& t : steps.triangles)
       tilts.push_back (areaVector (positions[t[0]], positions[t[1]], positions[t[2]])
@@ -276,7 +273,7 @@ TEST (Rounding, WhatCannotBeRightedIsCounted)
 
 TEST (Untangling, UndoesDetailsOnly)
 {
-  const MeshPiece chart = chartOf (samples::sheet (12));
+  const MeshPiece chart = chartOf (sheet (12));
   Plane flat;
   for (const Eigen::Vector3d& p : chart.positions)
     flat.emplace_back (p.x (), p.y ());

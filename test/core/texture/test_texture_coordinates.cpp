@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way from a mesh to its texture coordinates, on surfaces of all kinds. What must hold of
-// all texture coordinates is checked without any code of the library.
+// all texture coordinates is checked without any code of the texture stage.
 #include "mesh/facing_cases.h"
 #include "mesh/known_meshes.h"
-#include "mesh_oracle.h"
+#include "mesh/self_intersections.h"
 #include "texture/stretch.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
@@ -16,8 +16,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::Mesh;
-using Corners = std::array<Eigen::Vector2f, 3>; // of a triangle, anti-clockwise
+using namespace samples;
 using Edge = std::pair<Index, Index>;
 
 CGAL::Orientation
@@ -30,18 +29,6 @@ turn (const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f&
   return CGAL::orientation (place (a), place (b), place (c));
 }
 
-// Two convex shapes have no inner point in common if an edge of one of them parts them.
-bool
-isParted (const Corners& a, const Corners& b)
-{
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::all_of (b.begin (), b.end (), [&] (const Eigen::Vector2f& p) {
-          return turn (a[i], a[(i + 1) % 3], p) != CGAL::LEFT_TURN;
-        }))
-      return true;
-  return false;
-}
-
 double
 distance (const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -52,40 +39,16 @@ distance (const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vecto
   return (a + t * along - p).norm ();
 }
 
-std::vector<Corners>
-cornersOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2f>& uv)
-{
-  std::vector<Corners> corners;
-  corners.reserve (triangles.size ());
-  for (const auto& [a, b, c] : triangles)
-    corners.push_back ({uv[a], uv[b], uv[c]});
-  return corners;
-}
-
-// Pairs of triangles whose insides have a point in common, found exactly.
+// Pairs of triangles that share more than their common corners.
 std::size_t
-countOverlaps (const std::vector<Corners>& corners)
+countOverlaps (const std::vector<Triangle>& corners, const std::vector<Eigen::Vector2f>& uv)
 {
-  // By their left ends; triangles that begin beyond the right end of one cannot meet it.
-  std::vector<Index> order = samples::indices (corners.size ());
-  const auto left = [&] (std::size_t t) {
-    return std::min ({corners[t][0].x (), corners[t][1].x (), corners[t][2].x ()});
-  };
-  std::sort (order.begin (), order.end (), [&] (Index a, Index b) { return left (a) < left (b); });
-  std::size_t overlaps = 0;
-  for (std::size_t i = 0; i < order.size (); ++i) {
-    const Corners& a = corners[order[i]];
-    const auto [low, high] = std::minmax ({a[0].y (), a[1].y (), a[2].y ()});
-    const float right = std::max ({a[0].x (), a[1].x (), a[2].x ()});
-    for (std::size_t j = i + 1; j < order.size () && left (order[j]) < right; ++j) {
-      const Corners& b = corners[order[j]];
-      if (std::min ({b[0].y (), b[1].y (), b[2].y ()}) < high &&
-          std::max ({b[0].y (), b[1].y (), b[2].y ()}) > low && !isParted (a, b) &&
-          !isParted (b, a))
-        ++overlaps;
-    }
-  }
-  return overlaps;
+  Positions flat;
+  for (const Eigen::Vector2f& p : uv)
+    flat.emplace_back (static_cast<double> (p.x ()), static_cast<double> (p.y ()), 0.0);
+  const CrossingPairs pairs = findSelfIntersections (corners, flat, 1);
+  EXPECT_TRUE (pairs.untested.empty ());
+  return pairs.size ();
 }
 
 // Least distance of two charts, between vertices of one and edges of the other.
@@ -139,11 +102,11 @@ checkCharts (const std::vector<Triangle>& triangles, const TextureCoordinates& t
     flaws << "number of charts\n";
   std::size_t vertices = 0;
   for (const auto& [chart, members] : charts) {
-    const samples::Topology topology = samples::topologyOf (members);
+    const MeshTopology topology = topologyOf (members);
     if (!topology.manifold || topology.components != 1 || topology.loops.size () != 1 ||
         topology.euler != 1)
       flaws << "chart " << chart << " of " << members.size () << " triangles is no disc\n";
-    if (samples::topologyOf (by_coordinates[chart]).vertices != topology.vertices)
+    if (topologyOf (by_coordinates[chart]).vertices != topology.vertices)
       flaws << "chart " << chart << " is cut open\n";
     vertices += topology.vertices;
   }
@@ -165,40 +128,21 @@ checkCharts (const std::vector<Triangle>& triangles, const TextureCoordinates& t
     flaws << "seams\n";
 }
 
+// The formula of the stretch is tested on known maps (test_charts.cpp).
 void
 checkFigures (const Mesh& mesh, const TextureCoordinates& texture, std::ostream& flaws)
 {
-  // The stretch by the lengths of edges: their squares, weighted by the cotangents of the angles in
-  // the plane, are twice the Dirichlet energy of the map.
-  double energy = 0.0, area = 0.0, plane_area = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
-    std::array<Eigen::Vector2d, 3> uv;
-    std::array<Eigen::Vector3d, 3> place;
-    for (std::size_t i = 0; i < 3; ++i) {
-      uv[i] = texture.coordinates[texture.corners[t][i]].cast<double> ();
-      place[i] = mesh.positions[mesh.triangles[t][i]];
-    }
-    const Eigen::Vector2d a = uv[1] - uv[0], b = uv[2] - uv[0];
-    const double in_plane = 0.5 * (a.x () * b.y () - a.y () * b.x ());
-    const double in_space = 0.5 * (place[1] - place[0]).cross (place[2] - place[0]).norm ();
-    area += in_space;
-    plane_area += in_plane;
-    double integral = 0.0; // over the triangle in the plane
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector2d to = uv[(i + 1) % 3] - uv[i], back = uv[(i + 2) % 3] - uv[i];
-      integral += to.dot (back) / (2.0 * in_plane) *
-                  (place[(i + 1) % 3] - place[(i + 2) % 3]).squaredNorm () / 2.0;
-    }
-    // Mean square of the singular values, over the triangle in space.
-    energy += in_space * 0.5 * integral / in_plane;
-  }
-  const double stretch = std::sqrt (energy / area * plane_area / area);
-  if (area > 0.0 && !(std::abs (stretch - texture.stretch) < 1e-3 * stretch))
-    flaws << "the stretch is " << stretch << ", not " << texture.stretch << "\n";
-  if (!(std::abs (plane_area - texture.area_used) < 1e-5) || !(texture.area_used <= 1.0))
-    flaws << "the area is " << plane_area << ", not " << texture.area_used << "\n";
-  if (!(texture.largest_stretch >= texture.stretch * 0.999))
-    flaws << "the largest stretch is less than the mean\n";
+  std::vector<Eigen::Vector2d> uv;
+  for (const Eigen::Vector2f& p : texture.coordinates)
+    uv.emplace_back (p.cast<double> ());
+  const StretchSums sums = stretchOf (mesh.triangles, mesh.positions, texture.corners, uv);
+  const double mean = sums.mean (), largest = sums.largest (), area = sums.planeArea ();
+  if (!(std::abs (mean - texture.stretch) < 1e-3 * mean) ||
+      !(std::abs (largest - texture.largest_stretch) < 1e-2 * largest))
+    flaws << "the stretch is " << mean << " and " << largest << ", not " << texture.stretch
+          << " and " << texture.largest_stretch << "\n";
+  if (!(std::abs (area - texture.area_used) < 1e-5) || !(texture.area_used <= 1.0))
+    flaws << "the area is " << area << ", not " << texture.area_used << "\n";
 }
 
 // All that is wrong, one line each: sizes and indices, coordinates out of the square, charts that
@@ -214,17 +158,18 @@ flawsOf (const Mesh& mesh, const TextureCoordinates& texture)
   if (!flaws.str ().empty ())
     return flaws.str ();
   checkCharts (mesh.triangles, texture, flaws);
-  const std::vector<Corners> corners = cornersOf (texture.corners, texture.coordinates);
+  const auto& uv = texture.coordinates;
   const auto flipped = static_cast<std::size_t> (
-      std::count_if (corners.begin (), corners.end (),
-                     [] (const Corners& c) { return turn (c[0], c[1], c[2]) != CGAL::LEFT_TURN; }));
+      std::count_if (texture.corners.begin (), texture.corners.end (), [&uv] (const Triangle& t) {
+        return turn (uv[t[0]], uv[t[1]], uv[t[2]]) != CGAL::LEFT_TURN;
+      }));
   if (flipped != 0 || texture.flipped != flipped)
     flaws << flipped << " triangles are flipped; told: " << texture.flipped << "\n";
-  if (const std::size_t overlaps = countOverlaps (corners))
+  if (const std::size_t overlaps = countOverlaps (texture.corners, uv))
     flaws << overlaps << " overlaps\n";
   checkFigures (mesh, texture, flaws);
   constexpr std::size_t FEW = 1500; // for all distances
-  if (corners.size () < FEW && !(leastDistance (texture) > 0.99 * texture.gutter))
+  if (texture.corners.size () < FEW && !(leastDistance (texture) > 0.99 * texture.gutter))
     flaws << "charts are " << leastDistance (texture) << " apart, less than the gutter of "
           << texture.gutter << "\n";
   return flaws.str ();
@@ -241,7 +186,7 @@ textureOf (const Mesh& mesh, const TextureOptions& options = {})
 
 TEST (TextureCoordinates, PlaneIsOneChartWithoutStretch)
 {
-  const TextureCoordinates texture = textureOf (samples::sheet (12));
+  const TextureCoordinates texture = textureOf (sheet (12));
   EXPECT_EQ (texture.chart_count, 1U);
   EXPECT_TRUE (texture.seams.empty ());
   EXPECT_NEAR (texture.stretch, 1.0, 1e-5);
@@ -250,7 +195,7 @@ TEST (TextureCoordinates, PlaneIsOneChartWithoutStretch)
 
 TEST (TextureCoordinates, ARoofIsCutAtItsRidge)
 {
-  Mesh roof = samples::sheet (10); // two slopes of 45 degrees
+  Mesh roof = sheet (10); // two slopes of 45 degrees
   for (Eigen::Vector3d& p : roof.positions)
     p.z () = -std::abs (p.x () - 0.5);
   const TextureCoordinates texture = textureOf (roof);
@@ -264,12 +209,11 @@ TEST (TextureCoordinates, ARoofIsCutAtItsRidge)
 
 TEST (TextureCoordinates, TorusAndHolesAndManyComponents)
 {
-  textureOf (samples::torus (40, 16));
-  textureOf (samples::annulus (24));
-  Mesh many = samples::tetrahedron ();
+  textureOf (torus (40, 16));
+  textureOf (annulus (24));
+  Mesh many = tetrahedron ();
   for (int i = 0; i < 30; ++i)
-    many = samples::beside (
-        i % 2 == 0 ? samples::sheet (1 + static_cast<Index> (i % 5)) : samples::annulus (5), many);
+    many = beside (i % 2 == 0 ? sheet (1 + static_cast<Index> (i % 5)) : annulus (5), many);
   const TextureCoordinates texture = textureOf (many);
   EXPECT_GE (texture.chart_count, 31U);
   EXPECT_GT (texture.area_used, 0.4);
@@ -279,21 +223,21 @@ TEST (TextureCoordinates, DegenerateMeshes)
 {
   // A sheet with one point far out of it: the triangles around it stand on edge.
   for (const double height : {1.0, 10.0, 1000.0}) {
-    Mesh spike = samples::sheet (10);
+    Mesh spike = sheet (10);
     spike.positions[60].z () = height;
     textureOf (spike);
   }
   // Triangles without area, and points in one place.
-  Mesh mesh = samples::sheet (6);
+  Mesh mesh = sheet (6);
   mesh.positions[24] = 0.5 * (mesh.positions[23] + mesh.positions[25]); // on a line
   mesh.positions[10] = mesh.positions[9];
   mesh.positions[3] = mesh.positions[4];
   textureOf (mesh);
   const Mesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   textureOf (line);
-  textureOf (samples::beside ({{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}}, line));
+  textureOf (beside ({{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}}, line));
   // Points without a triangle have no coordinates.
-  mesh = samples::sheet (3);
+  mesh = sheet (3);
   mesh.positions.emplace_back (std::nan (""), 0.0, 0.0);
   EXPECT_EQ (textureOf (mesh).coordinates.size (), 16U);
   const TextureCoordinates none = textureOf ({});
@@ -312,7 +256,7 @@ TEST (TextureCoordinates, WholeDiscs)
   EXPECT_EQ (whole.chart_count, 1U);
   EXPECT_LT (whole.stretch, 2.0);
   // What is no disc is cut as always.
-  const Mesh ring = samples::torus (30, 12);
+  const Mesh ring = torus (30, 12);
   EXPECT_EQ (textureOf (ring, options).coordinates, textureOf (ring).coordinates);
 }
 
@@ -332,7 +276,7 @@ TEST (TextureCoordinates, NoiseDoesNotDecideCharts)
 {
   for (const double noise : {0.1, 0.3, 1.0}) { // spacings
     SCOPED_TRACE (noise);
-    Mesh noisy = samples::sheet (40);
+    Mesh noisy = sheet (40);
     RandomStream random (7);
     for (Eigen::Vector3d& p : noisy.positions)
       p.z () = 0.1 * noise * random.normal ();
@@ -351,7 +295,7 @@ TEST (TextureCoordinates, BadInputIsRefused)
     EXPECT_TRUE (texture.coordinates.empty ());
     return texture.status;
   };
-  const Mesh mesh = samples::sheet (3);
+  const Mesh mesh = sheet (3);
   std::vector<Mesh> bad (5, mesh);
   bad[0].triangles[4][1] = 16;
   bad[1].positions[5].y () = std::numeric_limits<double>::infinity ();
@@ -370,7 +314,7 @@ TEST (TextureCoordinates, BadInputIsRefused)
 
 TEST (TextureCoordinates, ProgressAndCancellation)
 {
-  const Mesh mesh = samples::torus (40, 16);
+  const Mesh mesh = torus (40, 16);
   std::vector<double> fractions;
   int calls = 0, last = -1;
   TextureOptions options;
@@ -408,7 +352,7 @@ TEST (Rounding, FlippedTrianglesAreRighted)
     const Eigen::Array2d steps = 8.0 * at + ((is_inner ? 12.0 : 0.0) * (noise - 0.5)).round ();
     uv.emplace_back ((0.5 + 0x1p-24 * steps).cast<float> ());
   }
-  const auto overlaps = [&] { return countOverlaps (cornersOf (sheet.triangles, uv)); };
+  const auto overlaps = [&] { return countOverlaps (sheet.triangles, uv); };
   EXPECT_GT (overlaps (), 0U);
   EXPECT_EQ (repairRounding (sheet.triangles, uv).size (), 0U);
   EXPECT_EQ (overlaps (), 0U);

@@ -3,7 +3,7 @@
 // The place of a sensor: what points tell of their rays, of rows, and of where it was.
 #include "view/ray_evidence.h"
 
-#include "points/point_samples.h"
+#include "samples.h"
 #include "scan_samples.h"
 #include "view/view_method.h"
 #include "view/viewpoint_search.h"
@@ -12,11 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-using samples::DepthNoise;
-using samples::Positions;
-using samples::Raster;
-using samples::Scan;
-using samples::workingPoints;
+using namespace samples;
 
 Viewpoint
 inPoints (const Points& points, const Eigen::Vector3d& viewpoint, bool is_far)
@@ -37,7 +33,7 @@ class RastersAndSeeds : public testing::TestWithParam<std::tuple<Raster, std::ui
 protected:
   Scan scan (DepthNoise noise) const
   {
-    return samples::scanScene (std::get<0> (GetParam ()), noise, std::get<1> (GetParam ()));
+    return scanScene (std::get<0> (GetParam ()), noise, std::get<1> (GetParam ()));
   }
 };
 
@@ -98,7 +94,7 @@ TEST (RayEvidence, PointsAtRandomAreNotSeenFromAnywhere)
 {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random (seed);
-    Positions points = samples::randomPoints (10000, seed);
+    Positions points = randomPoints (10000, seed);
     for (Eigen::Vector3d& p : points)
       p.z () = 0.1 * std::sin (6.0 * p.x ());
     const Eigen::Vector3d above (random.uniform (), random.uniform (), 0.5 + random.uniform ());
@@ -108,7 +104,7 @@ TEST (RayEvidence, PointsAtRandomAreNotSeenFromAnywhere)
 
 TEST (RayEvidence, AnEvenBallIsNotSeenFromItsCentre)
 {
-  EXPECT_FALSE (isSeen (samples::evenSphere (20000), Eigen::Vector3d::Zero ()));
+  EXPECT_FALSE (isSeen (evenSphere (20000), Eigen::Vector3d::Zero ()));
 }
 
 // Rings of a car's lidar: each begins anywhere, they are unevenly far apart, and rays are lost.
@@ -116,18 +112,16 @@ Scan
 scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed)
 {
   RandomStream random (seed);
-  std::vector<samples::Ray> rays;
+  std::vector<ScanRay> rays;
   for (const Eigen::Vector3d& place : places)
     for (int ring = 0; ring < 40; ++ring) {
       const double elevation = -24.0 + (ring < 20 ? 0.8 * ring : 16.0 + 0.35 * (ring - 20));
       const Eigen::AngleAxisd turn (random.uniform (), Eigen::Vector3d::UnitZ ());
-      for (samples::Ray& ray : samples::raysInRings (place, 1, 900, elevation, 0.0))
+      for (ScanRay& ray : raysInRings (place, 1, 900, elevation, 0.0))
         if (random.uniform () > 0.1)
           rays.push_back ({place, turn * ray.along});
     }
-  Scan scan;
-  castRays (samples::courtyard (), rays, {0.002, 0.0}, random, scan);
-  return scan;
+  return castRays (courtyard (), rays, {0.002, 0.0}, random);
 }
 
 TEST (RayEvidence, UnevenRingsWithLostRaysAreSeenFromOnePlaceNotFromTwo)
@@ -163,7 +157,7 @@ circles ()
 
 TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
 {
-  Positions lines, random = samples::randomPoints (4000, 385);
+  Positions lines, random = randomPoints (4000, 385);
   for (int row = 0; row < 20; ++row)
     for (int i = 0; i < 200; ++i)
       lines.emplace_back (i, 10.0 * row, 0.02 * row * i);

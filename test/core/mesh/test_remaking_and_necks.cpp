@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Places in space: the two sides of a surface, and zones of a mesh made anew. Loops around necks, and necks that are
+// cut.
+#include "mesh/remaking.h"
+
+#include "mesh/known_meshes.h"
+#include "mesh/neck_cutting.h"
+#include "mesh/neck_loops.h"
+#include "mesh/two_sides.h"
+#include "mesh_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace pcl::floater {
+namespace {
+using namespace samples;
+
+// A place with these points, all of them free.
+Place
+placeOf (const Positions& positions)
+{
+  Place place;
+  place.positions = positions;
+  place.is_free.assign (positions.size (), 1);
+  place.is_rim = place.is_boundary = std::vector<std::uint8_t> (positions.size (), 0);
+  return place;
+}
+
+// Without a frame, the outside is the front.
+TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
+{
+  const Place place = placeOf (evenSphere (300));
+  const RemadePlace made = remakePlace (place, 1);
+  EXPECT_TRUE (made.is_right);
+  const MeshTopology topology = topologyOf (made.triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.euler, 2);
+  EXPECT_EQ (topology.loops.size (), 0U);
+  double volume = 0.0;
+  for (const Triangle& t : made.triangles)
+    volume += place.positions[t[0]].dot (place.positions[t[1]].cross (place.positions[t[2]])) / 6.0;
+  EXPECT_NEAR (volume, 4.0 / 3.0 * PI, 0.15);
+}
+
+// Noise of half a spacing leaves pieces of a side around some points of every second sphere. Single
+// tetrahedra mend ten of 40 spheres. Points that cannot be mended are left out.
+TEST (TwoSides, PiecesAroundAPointAreMendedOrThePointIsLeftOut)
+{
+  std::size_t mended = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random (seed);
+    Positions positions = evenSphere (300);
+    for (Eigen::Vector3d& p : positions)
+      p *= 1.0 + 0.2 * (static_cast<double> (random ()) / 4294967296.0 - 0.5);
+    const RemadePlace made = remakePlace (placeOf (positions), 1);
+    const MeshTopology topology = topologyOf (made.triangles);
+    EXPECT_TRUE (made.is_right);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.loops.size (), 0U);
+    EXPECT_GE (topology.vertices, 294U);
+    mended += made.flawed > 0 && topology.vertices == 300 ? 1 : 0;
+  }
+  EXPECT_GE (mended, 9U);
+}
+
+// The meshes of two spheres beside each other, as one.
+struct Spheres
+{
+  Positions positions;
+  CsrLists neighbors;
+  std::vector<float> spacing;
+  TriangleMesh mesh;
+
+  explicit Spheres (double gap, std::size_t points = 400, bool along_curve = false)
+  {
+    Positions first = evenSphere (points);
+    if (along_curve)
+      std::sort (first.begin (), first.end (),
+                 [] (const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+                   return hilbertCode (p / 4.0) < hilbertCode (q / 4.0);
+                 });
+    Positions second = first;
+    for (Eigen::Vector3d& p : second)
+      p.x () += 2.0 + gap;
+    Mesh both;
+    for (const Positions& one : {first, second})
+      append (both, {one, remakePlace (placeOf (one), 1).triangles});
+    positions = both.positions;
+    mesh = connected (both);
+    neighbors = nearestOf (positions, 20);
+    spacing.assign (positions.size (), 3.4F / std::sqrt (static_cast<float> (points)));
+  }
+
+  CrossingPairs crossing () const { return findSelfIntersections (mesh.triangles, positions, 1); }
+
+  RemadeZones remake ()
+  {
+    CrossingPairs pairs = crossing ();
+    RemadeZones remade;
+    remakeZones (mesh, positions, neighbors, spacing, pairs, 3, remade, {}, 2);
+    EXPECT_EQ (pairs, crossing ());
+    return remade;
+  }
+
+  // Expects that the flaws are gone by that: two spheres of all their points.
+  void expectCured ()
+  {
+    EXPECT_GT (remake ().points (), 0U);
+    EXPECT_TRUE (crossing ().empty ());
+    const MeshTopology topology = topologyOf (mesh.triangles);
+    EXPECT_TRUE (topology.manifold);
+    EXPECT_EQ (topology.vertices, 800U);
+    EXPECT_EQ (topology.components, 2U);
+    EXPECT_EQ (topology.euler, 4);
+    EXPECT_EQ (topology.loops.size (), 0U);
+  }
+};
+
+TEST (Remaking, LeavesACleanMeshAlone)
+{
+  Spheres spheres (0.1);
+  const std::vector<Triangle> before = spheres.mesh.triangles;
+  EXPECT_EQ (spheres.remake ().points (), 0U);
+  EXPECT_EQ (spheres.mesh.triangles, before);
+}
+
+// Two points that change places make the triangles around them cross.
+TEST (Remaking, CuresTrianglesThatCross)
+{
+  for (const double gap : {0.1, 3.0}) {
+    Spheres spheres (gap);
+    exchange (spheres.mesh, 100, 121);
+    ASSERT_FALSE (spheres.crossing ().empty ());
+    spheres.expectCured ();
+  }
+}
+
+// A zone of all points is tried in some places first.
+TEST (Remaking, MakesALargeZoneAnewUnlessItIsNoise)
+{
+  for (const bool is_noisy : {false, true}) {
+    Spheres spheres (0.1, 3000, true);
+    for (Index p = 0; p < 5900; p += 25)
+      exchange (spheres.mesh, p, p + 21);
+    std::mt19937 random (5);
+    std::normal_distribution<double> noise (0.0, 0.05);
+    for (Eigen::Vector3d& position : spheres.positions)
+      for (int k = 0; is_noisy && k < 3; ++k)
+        position[k] += noise (random);
+    const std::vector<Triangle> before = spheres.mesh.triangles;
+    const RemadeZones remade = spheres.remake ();
+    EXPECT_EQ (remade.is_noise, is_noisy);
+    EXPECT_EQ (remade.points () > 5900, !is_noisy);
+    EXPECT_EQ (spheres.mesh.triangles == before, is_noisy);
+    EXPECT_EQ (spheres.crossing ().empty (), !is_noisy);
+  }
+}
+
+TEST (Remaking, TriesNoZoneOfOneSizeTwice)
+{
+  for (const bool has_failed : {false, true}) {
+    Spheres spheres (0.1);
+    exchange (spheres.mesh, 100, 121);
+    CrossingPairs crossing = spheres.crossing ();
+    const DisturbedZones zones =
+        findDisturbedZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing,
+                            crossing, 1, false, {}, 1);
+    ASSERT_EQ (zones.points.rows (), 1U);
+    RemadeZones remade;
+    remade.failed.assign (spheres.positions.size (), has_failed ? zones.points.row (0).size () : 0);
+    remakeZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing, crossing, 1,
+                 remade, {}, 1);
+    EXPECT_EQ (remade.points (), has_failed ? 0 : zones.points.row (0).size ());
+    EXPECT_EQ (crossing.empty (), !has_failed);
+  }
+}
+
+// A point without a triangle, and a hole that its loss left.
+TEST (Remaking, BringsPointsBack)
+{
+  Spheres spheres (0.1);
+  auto& triangles = spheres.mesh.triangles;
+  const auto hasPoint = [] (const Triangle& t) { return t[0] == 7 || t[1] == 7 || t[2] == 7; };
+  triangles.erase (std::remove_if (triangles.begin (), triangles.end (), hasPoint),
+                   triangles.end ());
+  ASSERT_TRUE (spheres.mesh.connect (spheres.positions.size (), 1));
+  spheres.expectCured ();
+}
+
+// Four points under the surface are a body of their own, which is no part of it.
+TEST (Remaking, LeavesOutIslands)
+{
+  Spheres spheres (3.0);
+  exchange (spheres.mesh, 100, 121);
+  const Eigen::Vector3d below = 0.75 * spheres.positions[100];
+  spheres.positions.push_back (below);
+  for (int k = 0; k < 3; ++k)
+    spheres.positions.push_back (below + 0.05 * Eigen::Vector3d::Unit (k));
+  ASSERT_TRUE (spheres.mesh.connect (spheres.positions.size (), 1));
+  spheres.neighbors = nearestOf (spheres.positions, 20);
+  spheres.spacing.resize (spheres.positions.size (), spheres.spacing[0]);
+  spheres.expectCured ();
+}
+
+// A window has one sheet around it and stays; a loop of five points is none.
+TEST (Remaking, KeepsOpenings)
+{
+  const auto zones = [] (Index around) {
+    const Mesh ring = annulus (around);
+    return findDisturbedZones (connected (ring), ring.positions, nearestOf (ring.positions, 20),
+                               std::vector<float> (ring.positions.size (), 1.0F), {}, 3, false, {},
+                               1)
+        .points.rows ();
+  };
+  EXPECT_EQ (zones (12), 0U);
+  EXPECT_GT (zones (5), 0U);
+}
+
+// Edges of the shortest loop; 0 if there is none.
+std::size_t
+shortestLoop (const Mesh& mesh, std::size_t longest)
+{
+  const TriangleMesh connected = samples::connected (mesh);
+  const std::vector<std::vector<Index>> loops =
+      findNeckLoops (connected, mesh.positions, longest, 1);
+  for (const std::vector<Index>& loop : loops)
+    for (std::size_t i = 0; i < loop.size (); ++i)
+      EXPECT_TRUE (connected.hasEdge (loop[i], loop[(i + 1) % loop.size ()]));
+  return loops.empty () ? 0 : loops.front ().size ();
+}
+
+TEST (NeckLoops, AreAsLongAsTheTubeIsWide)
+{
+  EXPECT_EQ (shortestLoop (torus (15, 5), 4), 0U);
+  for (const std::size_t longest : {5U, 8U, 12U})
+    EXPECT_EQ (shortestLoop (torus (15, 5), longest), 5U);
+  for (const Index across : {3U, 4U})
+    EXPECT_EQ (shortestLoop (torus (36, across), 12), across);
+}
+
+TEST (NeckLoops, GoAroundNoTipAndNoBoundary)
+{
+  Mesh tip = sheet (14);
+  tip.positions[7 * 15 + 7].z () = 0.5;
+  EXPECT_EQ (shortestLoop (tip, 12), 0U);
+  EXPECT_EQ (shortestLoop (annulus (5), 12), 0U);
+  EXPECT_EQ (shortestLoop (tetrahedron (), 12), 0U);
+  EXPECT_EQ (shortestLoop (torus (30, 13), 12), 0U); // hardly bent
+}
+
+LocalGeometry
+geometryOf (const TwoSheets& sheets, double spacing = 0.1)
+{
+  LocalGeometry geometry;
+  geometry.neighbors = sheets.neighbors;
+  geometry.spacing.assign (sheets.positions.size (), static_cast<float> (spacing));
+  geometry.stars.normals = sheets.normals;
+  return geometry;
+}
+
+// Two sheets face each other, and are joined by prisms in the places of some of their triangles.
+TwoSheets
+joinedSheets (const std::vector<std::size_t>& places)
+{
+  constexpr Index SIDE = 14;
+  Mesh lower = sheet (SIDE), upper = lower;
+  turnRound (upper);
+  for (Eigen::Vector3d& p : upper.positions)
+    p.z () = 0.08;
+  TwoSheets sheets (lower, upper, 12);
+  const std::size_t points = lower.positions.size (), triangles = lower.triangles.size ();
+  std::fill (sheets.normals.begin () + static_cast<std::ptrdiff_t> (points), sheets.normals.end (),
+             Eigen::Vector3f (0, 0, -1));
+  Triangles joined;
+  for (std::size_t t = 0; t < 2 * triangles; ++t)
+    if (std::count (places.begin (), places.end (), t % triangles) == 0)
+      joined.push_back (sheets.mesh.triangles[t]);
+  for (const std::size_t t : places)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index p = lower.triangles[t][i], q = lower.triangles[t][(i + 1) % 3];
+      const auto above = [&] (Index r) { return static_cast<Index> (r + points); };
+      joined.push_back ({p, q, above (q)});
+      joined.push_back ({p, above (q), above (p)});
+    }
+  sheets.mesh = connected (joined, sheets.positions.size ());
+  return sheets;
+}
+
+// One bridge makes one component of two; each more makes a handle.
+TEST (NeckCutting, CutsBridgesBetweenSheets)
+{
+  for (const std::vector<std::size_t>& places :
+       {std::vector<std::size_t>{}, {180}, {95, 290}, {95, 290, 121, 268}}) {
+    TwoSheets sheets = joinedSheets (places);
+    EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), {}, 1),
+               places.size ());
+    expectConsistent (sheets.mesh);
+    const MeshTopology topology = topologyOf (sheets.mesh.triangles);
+    EXPECT_EQ (topology.euler, 2);
+    EXPECT_EQ (topology.components, 2U);
+    EXPECT_EQ (topology.vertices, sheets.positions.size ());
+    EXPECT_EQ (topology.loops.size (), 2U);
+  }
+}
+
+TEST (NeckCutting, KeepsThinTubes)
+{
+  for (const Index across : {3U, 4U, 6U, 9U, 12U}) {
+    const Mesh torus = samples::torus (8 * across / 3, across);
+    TwoSheets sheets (torus, {}, 12);
+    sheets.normals.clear ();
+    for (Index x = 0; x < torus.positions.size (); ++x) {
+      const Eigen::Vector3d& p = torus.positions[x];
+      const Eigen::Vector3d middle = Eigen::Vector3d (p.x (), p.y (), 0.0).normalized ();
+      sheets.normals.push_back ((p - middle).normalized ().cast<float> ());
+    }
+    EXPECT_EQ (
+        cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, 1),
+        0U);
+    expectSame (sheets.mesh, connected (torus));
+  }
+}
+
+} // namespace
+} // namespace pcl::floater
