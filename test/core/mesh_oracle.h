@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Topology and folds of a mesh, computed without any code of the library.
+// Topology of a mesh, computed without any code of the library.
 #pragma once
 
 #include "core/types.h"
-
-#include <Eigen/Geometry>
 
 #include <map>
 #include <set>
@@ -13,8 +11,6 @@
 #include <vector>
 
 namespace pcl::floater::samples {
-using Positions = std::vector<Eigen::Vector3d>;
-
 /// Topology of a mesh, counted from its edges.
 struct MeshTopology
 {
@@ -89,28 +85,6 @@ topologyOf (const std::vector<Triangle>& triangles)
     topology.loops.push_back (std::move (loop));
   }
   return topology;
-}
-
-/// Edges whose two triangles are more than 120 degrees apart.
-inline std::vector<std::array<Index, 2>>
-foldedEdges (const std::vector<Triangle>& triangles, const Positions& points)
-{
-  constexpr double FOLDED = -0.5;                             // cosine
-  std::map<std::pair<Index, Index>, Eigen::Vector3d> normals; // by directed edge
-  std::vector<std::array<Index, 2>> folded;
-  for (const Triangle& t : triangles) {
-    const Eigen::Vector3d normal =
-        (points[t[1]] - points[t[0]]).cross (points[t[2]] - points[t[0]]).normalized ();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index a = t[i], b = t[(i + 1) % 3];
-      const auto twin = normals.find ({b, a});
-      if (twin == normals.end ())
-        normals[{a, b}] = normal;
-      else if (normal.dot (twin->second) < FOLDED)
-        folded.push_back ({a, b});
-    }
-  }
-  return folded;
 }
 
 } // namespace pcl::floater::samples

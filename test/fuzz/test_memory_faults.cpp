@@ -183,7 +183,7 @@ allWays (std::size_t points)
   view.view.use = ViewUse::GIVEN;
   const auto make = [points] (const char* name, SurfaceKind kind, Options options) {
     options.threads = 1;
-    return Way{name, asInput (surface (kind, points)), options};
+    return Way{name, asInput (samples::surface (kind, points)), options};
   };
   std::vector<Way> ways{make ("disc", SurfaceKind::HEIGHT_FIELD, disc),
                         make ("hemisphere", SurfaceKind::HEMISPHERE, disc),

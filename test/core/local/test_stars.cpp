@@ -192,6 +192,28 @@ TEST (LocalGeometry, CopiesRowsOfSomePoints)
   }
 }
 
+// Lines on a wavy sheet. Where they are half as far apart as the neighbours reach, or as far, a few
+// neighbours lie on one of the lines beside.
+TEST (Stars, LinesOfAnyDistanceMakeOneSheet)
+{
+  for (const double apart : {3.0, 5.0, 7.0, 8.0, 8.5, 9.0, 9.5, 10.0, 10.5, 12.0})
+    for (const double jitter : {0.0, 0.4}) {
+      RandomStream random (1);
+      Positions points;
+      for (int line = 0; line < 16; ++line) {
+        const double y = apart * line, begin = random.uniform ();
+        for (int i = 0; i < 150; ++i) {
+          const double x = begin + i + jitter * (2.0 * random.uniform () - 1.0);
+          points.emplace_back (x, y, 20.0 * std::sin (x / 30.0) * std::cos (y / 35.0));
+        }
+      }
+      const Report report = meshOf (points).report;
+      EXPECT_EQ (report.check.components, 1U) << apart << " " << jitter;
+      EXPECT_EQ (report.check.loops.size (), 1U) << apart << " " << jitter;
+      EXPECT_EQ (report.check.self_intersections, 0U) << apart << " " << jitter;
+    }
+}
+
 using Neighbors = std::vector<PlanarNeighbor>;
 
 struct Star

@@ -150,12 +150,6 @@ TEST (HoleFilling, ALoopThatCannotBeFilledIsKeptOpen)
   EXPECT_EQ (topologyOf (filled ({{0, 1, 4}, {1, 2, 4}, {2, 0, 4}}, 3, true)).euler, 2);
 }
 
-std::size_t
-foldsOf (const TriangleMesh& changed, const Mesh& mesh)
-{
-  return findFolds (changed, mesh.positions, 1).size ();
-}
-
 // Squares of a strip of two rows, cut along diagonals; two triangles are turned over, as
 // an inner point is moved across the boundary. Point x of row y is 7 y + x.
 Mesh
@@ -216,10 +210,10 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
                   {3, 7, 6}}};
   for (const Mesh& mesh : {foldedStrip (), fan}) {
     TriangleMesh changed = connected (mesh);
-    ASSERT_GT (foldsOf (changed, mesh), 0U);
+    ASSERT_GT (findFolds (changed, mesh.positions, 1).size (), 0U);
     // All folds end, no point is lost, and one boundary loop is left.
     EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 2U);
-    EXPECT_EQ (foldsOf (changed, mesh), 0U);
+    EXPECT_EQ (findFolds (changed, mesh.positions, 1).size (), 0U);
     expectDisc (changed, mesh.positions.size ());
   }
 }

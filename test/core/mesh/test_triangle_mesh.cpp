@@ -3,6 +3,7 @@
 // The mesh: neighbours, components, flips and splits; vertices that are split; normals of vertices.
 #include "mesh/triangle_mesh.h"
 
+#include "mesh/flaw_repair.h"
 #include "mesh/known_meshes.h"
 #include "mesh/vertex_splits.h"
 
@@ -140,7 +141,7 @@ expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {}
 std::size_t
 foldsOf (const TriangleMesh& mesh, const Positions& positions)
 {
-  return foldedEdges (mesh.triangles, positions).size ();
+  return findFolds (mesh, positions, 1).size ();
 }
 
 TEST (VertexSplits, TopologyStaysWhereverPointsAre)
