@@ -147,20 +147,19 @@ TEST (Recognition, AScannerInARoomIsFoundToAFractionOfAStep)
 {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX (), y = Eigen::Vector3d::UnitY (),
                         z = Eigen::Vector3d::UnitZ ();
-  const samples::Scene room{{{z, 0.0}, {z, 2.6}, {x, 3.0}, {x, -3.0}, {y, 2.5}, {y, -3.0}},
-                            {{{1.0, 0.4, 0.9}, 0.3, false}, {{0.8, -0.8, 0.0}, 0.25, true}},
-                            {Eigen::Vector3d (-3.1, -3.1, -0.1), Eigen::Vector3d (3.1, 2.6, 2.7)}};
+  const Scene room{{{z, 0.0}, {z, 2.6}, {x, 3.0}, {x, -3.0}, {y, 2.5}, {y, -3.0}},
+                   {{{1.0, 0.4, 0.9}, 0.3, false}, {{0.8, -0.8, 0.0}, 0.25, true}},
+                   {Eigen::Vector3d (-3.1, -3.1, -0.1), Eigen::Vector3d (3.1, 2.6, 2.7)}};
   for (const std::uint64_t seed : {1, 2, 4}) {
     RandomStream random (seed);
     const Eigen::Vector3d place (-0.6 - random.uniform (), random.uniform () - 0.5,
                                  1.2 + 0.4 * random.uniform ());
     for (const bool is_dense : {true, false}) {
       SCOPED_TRACE (std::to_string (seed) + (is_dense ? ", dense" : ", few rings"));
-      Scan scan;
-      castRays (room,
-                is_dense ? samples::raysInRings (place, 201, 480, -60.0, 0.75)
-                         : samples::raysInRings (place, 32, 1800, -25.0, 35.0 / 31.0),
-                {is_dense ? 0.0007 : 0.005, 0.0}, random, scan);
+      const Scan scan = castRays (room,
+                                  is_dense ? raysInRings (place, 201, 480, -60.0, 0.75)
+                                           : raysInRings (place, 32, 1800, -25.0, 35.0 / 31.0),
+                                  {is_dense ? 0.0007 : 0.005, 0.0}, random);
       const Eigen::Vector3d found (viewOf (scan, {}).report.viewpoint.data ());
       EXPECT_LT ((found - place).norm (), 0.002);
     }
