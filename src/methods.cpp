@@ -6,7 +6,7 @@
 #include "core/order_statistics.h"
 #include "input/input.h"
 #include "mesh/check.h"
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/trimming.h"
 #include "mesh/vertex_splits.h"
 #include "report/findings.h"

@@ -226,10 +226,7 @@ private:
     for (std::size_t order = 0; order < limits_.rebuilt_orders; ++order) {
       run_.poll ();
       bool is_possible = true;
-      double change_of_cost = 0.0; // not used: gainOf () measures the change itself
-      const auto change = [&] {
-        is_possible = mover_.rebuild (vertices, change_of_cost) && is_possible;
-      };
+      const auto change = [&] { is_possible = mover_.rebuild (vertices) && is_possible; };
       mesh_.recordChanges ();
       rebuilt_vertices_ += 2 * vertices.size ();
       if (gainOf (change) > 0.0 && is_possible) {
@@ -392,30 +389,6 @@ private:
 };
 
 } // namespace
-
-std::vector<MeshEdge>
-findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const RunContext& run)
-{
-  // Sides of each triangle at which it is folded against one of a higher index, as bits.
-  std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
-  parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
-    for (auto t = static_cast<Index> (first); t < last; ++t) {
-      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index u = mesh.neighbors[t][side];
-        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh.triangles[u], positions)))
-          sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
-      }
-    }
-  });
-  std::vector<MeshEdge> folds;
-  for (Index t = 0; t < sides.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (((sides[t] >> side) & 1U) != 0)
-        folds.push_back ({t, side});
-  return folds;
-}
 
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,

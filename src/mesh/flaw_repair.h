@@ -3,8 +3,7 @@
 // Local search that removes folds and self-intersections from a mesh.
 #pragma once
 
-#include "core/order_statistics.h"
-#include "mesh/ridges.h"
+#include "mesh/folds.h"
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
@@ -12,25 +11,6 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Adds one ring of vertices to a patch, and sorts it.
-inline void
-addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
-{
-  std::vector<Index> wider, fan;
-  for (const Index v : patch) {
-    mesh.fan (v, fan);
-    for (const Index t : fan)
-      wider.insert (wider.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
-  }
-  sortUnique (wider);
-  patch.swap (wider);
-}
-
-/// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).
-std::vector<MeshEdge>
-findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const RunContext& run);
-
 /// Costs and limits of the search. Where no measurement is told, they were chosen by hand.
 struct RepairLimits
 {

@@ -68,10 +68,9 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
   return added;
 }
 
-double
+void
 EdgeFlipper::run ()
 {
-  double change = 0.0;
   const std::size_t pushed = stack_.size ();
   std::size_t edges = 0;
   ProgressLoop progress (run_, pushed);
@@ -80,19 +79,16 @@ EdgeFlipper::run ()
       progress.reach (pushed - std::min (pushed, stack_.size ()));
     const MeshEdge e = stack_.back ();
     stack_.pop_back ();
-    const double change_by_flip = changeByFlip (e);
-    if (change_by_flip >= 0.0)
+    if (changeByFlip (e) >= 0.0)
       continue;
     const MeshEdge m = mesh_.mate (e);
     mesh_.flip (e);
     ++flips_;
-    change += change_by_flip;
     for (const Index t : {e.triangle, m.triangle})
       for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
         if (mesh_.neighbors[t][side] != NONE)
           stack_.push_back ({t, side});
   }
-  return change;
 }
 
 bool

@@ -47,8 +47,7 @@ public:
   void push (MeshEdge e) { stack_.push_back (e); }
 
   /// Empties the stack.
-  /// \return change of the cost of the mesh: 0 or less
-  double run ();
+  void run ();
 
   std::size_t flips () const { return flips_; }
 

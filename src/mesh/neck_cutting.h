@@ -4,7 +4,6 @@
 #pragma once
 
 #include "local/local_geometry.h"
-#include "mesh/flaw_repair.h"
 #include "mesh/hole_filling.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"

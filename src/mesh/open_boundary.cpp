@@ -4,7 +4,7 @@
 
 #include "core/geometry.h"
 #include "core/order_statistics.h"
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/trimming.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/disjoint_sets.h"
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/two_sides.h"
 #include "mesh/vertex_stars.h"
 

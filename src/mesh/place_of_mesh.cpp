@@ -4,7 +4,6 @@
 
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
-#include "mesh/flaw_repair.h"
 
 #include <algorithm>
 #include <map>

@@ -340,4 +340,17 @@ countPoints (const TriangleMesh& mesh, const MeshComponents& components)
   return points;
 }
 
+void
+addRing (const TriangleMesh& mesh, std::vector<Index>& patch)
+{
+  std::vector<Index> wider, fan;
+  for (const Index v : patch) {
+    mesh.fan (v, fan);
+    for (const Index t : fan)
+      wider.insert (wider.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+  }
+  sortUnique (wider);
+  patch.swap (wider);
+}
+
 } // namespace pcl::floater

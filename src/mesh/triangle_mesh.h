@@ -189,4 +189,8 @@ findComponents (const TriangleMesh& mesh, const RunContext& run);
 std::vector<std::size_t>
 countPoints (const TriangleMesh& mesh, const MeshComponents& components);
 
+/// Adds one ring of vertices to a patch, and sorts it.
+void
+addRing (const TriangleMesh& mesh, std::vector<Index>& patch);
+
 } // namespace pcl::floater

@@ -7,72 +7,53 @@
 #include <tuple>
 
 namespace pcl::floater {
-// Cost of some triangles and all their edges; shared edges count once.
-double
-VertexMover::costOf (const Index* first, const Index* last)
-{
-  double sum = 0.0;
-  for (const Index* t = first; t != last; ++t) {
-    const auto [normal, own_cost] = cost_ (mesh_.triangles[*t]);
-    sum += own_cost;
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index other = mesh_.neighbors[*t][side];
-      if (other != NONE && (std::find (first, last, other) == last || *t < other))
-        sum += cost_.plain ().ofEdge (normal, normalAcross (mesh_, cost_, {*t, side}));
-    }
-  }
-  return sum;
-}
-
-// Removes a vertex. Returns false if this is not possible.
+// Finds the filling of the hole that a vertex leaves. Returns false if it cannot leave.
 bool
-VertexMover::takeOut (Index v, double& change)
+VertexMover::fillHoleOf (Index v)
 {
   if (!mesh_.fan (v, fan_, polygon_) || fan_.size () < 3 || fan_.size () > largest_fan_)
     return false;
   filled_ = filling_.fill (
       polygon_, [this] (Index p, Index q, Index r) { return cost_ (p, q, r).cost; },
       [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); });
-  if (filled_.empty () || (filled_.size () == 1 && isTriangle (filled_.front ())))
-    return false;
-  slots_ = fan_;
-  change = -costOf (slots_.data (), slots_.data () + slots_.size ());
+  return !filled_.empty () && (filled_.size () > 1 || !isTriangle (filled_.front ()));
+}
+
+// Puts the filling in the place of a vertex.
+void
+VertexMover::takeOut (Index v)
+{
+  mesh_.fan (v, slots_);
   mesh_.replaceFan (v, slots_, filled_);
-  change += costOf (slots_.data (), slots_.data () + filled_.size ());
-  return true;
 }
 
 std::vector<VertexMover::Place>
 VertexMover::placesFor (Index v, std::size_t most)
 {
-  const std::size_t before = mesh_.mark ();
-  double change = 0.0;
-  if (!takeOut (v, change))
+  if (!fillHoleOf (v))
     return {};
+  const std::size_t before = mesh_.mark ();
+  takeOut (v);
   const std::vector<Place> places = findPlaces (v, most);
   mesh_.undo (before);
   return places;
 }
 
-double
+void
 VertexMover::moveTo (Index v, const Place& place)
 {
-  double change = 0.0;
-  takeOut (v, change);
-  change += place.added + settleAt (v, place.triangle);
-  return change;
+  takeOut (v);
+  settleAt (v, place.triangle);
 }
 
 bool
-VertexMover::rebuild (const std::vector<Index>& vertices, double& change)
+VertexMover::rebuild (const std::vector<Index>& vertices)
 {
   std::vector<Index> out, unused; // vertices, and triangles: two for each of them
-  change = 0.0;
   for (const Index v : vertices) {
-    double change_by_one = 0.0;
-    if (!takeOut (v, change_by_one))
+    if (!fillHoleOf (v))
       continue;
-    change += change_by_one;
+    takeOut (v);
     out.push_back (v);
     unused.insert (unused.end (), slots_.end () - 2, slots_.end ());
   }
@@ -80,15 +61,14 @@ VertexMover::rebuild (const std::vector<Index>& vertices, double& change)
     slots_.assign (unused.end () - 2, unused.end ());
     if (findPlaces (out.back (), 1).empty ())
       return false;
-    const Place place = places_.front ();
-    change += place.added + settleAt (out.back (), place.triangle);
+    settleAt (out.back (), places_.front ().triangle);
   }
   return true;
 }
 
 // Splits triangle t at a vertex, using the two free slots, and flips edges around the vertex and
-// its old hole. Returns the change of cost by the flips.
-double
+// its old hole.
+void
 VertexMover::settleAt (Index v, Index t)
 {
   mesh_.split (t, v, slots_[slots_.size () - 2], slots_.back ());
@@ -101,7 +81,7 @@ VertexMover::settleAt (Index v, Index t)
           (u < other || std::find (fan_.begin (), fan_.end (), other) == fan_.end ()))
         flipper_.push ({u, side});
     }
-  return flipper_.run ();
+  flipper_.run ();
 }
 
 // True if the mesh has the reversed triangle: the fourth triangle of a tetrahedron.

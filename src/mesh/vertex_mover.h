@@ -44,23 +44,22 @@ public:
   /// \return empty if the vertex cannot be removed
   std::vector<Place> placesFor (Index v, std::size_t most);
 
-  /// Moves a vertex to a triangle that was found for it in this state of the mesh.
-  /// \return change of the cost of the mesh
-  double moveTo (Index v, const Place& place);
+  /// Moves the vertex for which placesFor () was called last, in the state of the mesh then.
+  /// \param place one that was found for it
+  void moveTo (Index v, const Place& place);
 
   /// Removes vertices, except immovable ones, and reinserts them one by one, each where it then
   /// costs least.
   /// \param vertices each once; the last one is inserted first
-  /// \param change   set to the change of the cost of the mesh
   /// \return false if one of them fits nowhere; then the caller has to undo
-  bool rebuild (const std::vector<Index>& vertices, double& change);
+  bool rebuild (const std::vector<Index>& vertices);
 
   CachedCost& cost () { return cost_; }
 
 private:
-  double costOf (const Index* first, const Index* last);
-  bool takeOut (Index v, double& change);
-  double settleAt (Index v, Index t);
+  bool fillHoleOf (Index v);
+  void takeOut (Index v);
+  void settleAt (Index v, Index t);
   bool isTriangle (const Triangle& corners);
   const std::vector<Place>& findPlaces (Index v, std::size_t most);
   void offer (Index t, Index v, std::size_t most);
@@ -71,7 +70,7 @@ private:
   CachedCost cost_;
   EdgeFlipper flipper_;
   PolygonFilling filling_;
-  std::vector<Triangle> filled_; // the filling of the hole that a vertex has left
+  std::vector<Triangle> filled_; // the filling of the hole that a vertex leaves
   std::vector<Index> slots_;     // triangles of that hole; the last two are unused
   std::vector<Index> fan_, polygon_;
   std::vector<Place> places_;          // cheapest first

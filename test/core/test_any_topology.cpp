@@ -9,7 +9,7 @@
 
 #include "cloud_reader.h"
 #include "local/planes.h"
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "surface_samples.h"
 
 #include <gtest/gtest.h>

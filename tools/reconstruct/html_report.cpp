@@ -7,7 +7,7 @@
 #include "html_template.h"
 #include "local/planes.h"
 #include "mesh/check.h"
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/self_intersections.h"
 #include "points/neighbors.h"
 #include "report/findings.h"

@@ -4,7 +4,7 @@
 #include "mesh/finish.h"
 
 #include "floater/planar_delaunay.h"
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/insertion.h"
 #include "mesh/known_meshes.h"
 

@@ -4,8 +4,8 @@
 #include "mesh/flaw_repair.h"
 
 #include "mesh/flips.h"
+#include "mesh/folds.h"
 #include "mesh/known_meshes.h"
-#include "mesh/ridges.h"
 #include "mesh/vertex_mover.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ costOfMesh (const TriangleMesh& mesh, const TriangleCost& cost)
   return sum;
 }
 
-TEST (FlawRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
+TEST (FlawRepair, ChangesAreConsistentAndAreUndoneWithoutATrace)
 {
   Sheets sheets (1.0, 3);
   RandomStream random (4);
@@ -101,8 +101,7 @@ TEST (FlawRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
   TriangleMesh& mesh = sheets.mesh;
   const TriangleMesh before = mesh;
   VertexMover mover (mesh, sheets.neighbors, sheets.cost, LARGEST_FAN, 1);
-  const auto isChangedAndUndone = [&] (double change) {
-    EXPECT_NEAR (costOfMesh (mesh, sheets.cost) - costOfMesh (before, sheets.cost), change, 1e-6);
+  const auto isChangedAndUndone = [&] {
     expectConsistent (mesh);
     const bool is_changed = mesh.triangles != before.triangles;
     mesh.undo (0);
@@ -119,21 +118,16 @@ TEST (FlawRepair, ChangesCostWhatIsToldAndAreUndoneWithoutATrace)
     for (const VertexMover::Place& place : mover.placesFor (v, 6)) {
       ASSERT_EQ (mesh.triangles, before.triangles) << "the search for places left a trace";
       mesh.recordChanges ();
-      double change = mover.moveTo (v, place);
-      for (Index q : sheets.neighbors.row (v))
-        if (const auto places = mover.placesFor (q, 1); !places.empty ())
-          change += mover.moveTo (q, places.front ());
-      moved += isChangedAndUndone (change) ? 1 : 0;
+      mover.moveTo (v, place);
+      moved += isChangedAndUndone () ? 1 : 0;
     }
   EXPECT_GT (moved, 50U);
   for (Index first = 0; first + 3 * GRID_SIDE < SHEET_POINTS; first += 5) {
     mesh.recordChanges ();
     const Index next = first + GRID_SIDE; // in the row above
-    double change = 0.0;
     if (mover.rebuild (
-            {first, first + 1, next, next + 1, next + 2, next + GRID_SIDE, first + SHEET_POINTS},
-            change)) {
-      rebuilt += isChangedAndUndone (change) ? 1 : 0;
+            {first, first + 1, next, next + 1, next + 2, next + GRID_SIDE, first + SHEET_POINTS})) {
+      rebuilt += isChangedAndUndone () ? 1 : 0;
       continue;
     }
     mesh.undo (0);

@@ -4,7 +4,7 @@
 // beside it, and triangles that only fill its notches.
 #include "mesh/hole_filling.h"
 
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/known_meshes.h"
 #include "mesh/open_boundary.h"
 

@@ -3,7 +3,7 @@
 // The mesh: neighbours, components, flips and splits; vertices that are split; normals of vertices.
 #include "mesh/triangle_mesh.h"
 
-#include "mesh/flaw_repair.h"
+#include "mesh/folds.h"
 #include "mesh/known_meshes.h"
 #include "mesh/vertex_splits.h"
 

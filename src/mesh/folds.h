@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sharp ridges of the surface, which look like folds.
+// Folded edges, and sharp ridges of the surface, which look like them.
 #pragma once
 
 #include "core/run_context.h"
@@ -13,6 +13,11 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).
+std::vector<MeshEdge>
+findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           const RunContext& run);
+
 /// Edges at sharp ridges, such as those of a blade.
 struct Ridges
 {

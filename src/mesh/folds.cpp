@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/ridges.h"
+#include "mesh/folds.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
 
 namespace pcl::floater {
 namespace {
@@ -29,6 +32,30 @@ volumesOf (const TriangleMesh& mesh, const MeshComponents& components,
   return volume;
 }
 } // namespace
+
+std::vector<MeshEdge>
+findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+           const RunContext& run)
+{
+  // Sides of each triangle at which it is folded against one of a higher index, as bits.
+  std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
+  parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Index> (first); t < last; ++t) {
+      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const Index u = mesh.neighbors[t][side];
+        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh.triangles[u], positions)))
+          sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
+      }
+    }
+  });
+  std::vector<MeshEdge> folds;
+  for (Index t = 0; t < sides.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side)
+      if (((sides[t] >> side) & 1U) != 0)
+        folds.push_back ({t, side});
+  return folds;
+}
 
 Ridges
 findRidges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
