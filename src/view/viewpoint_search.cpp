@@ -74,7 +74,7 @@ public:
     // around.
     std::optional<RatedViewpoint> best;
     for (const RatedViewpoint& start : keepApart (candidates, APART, limits_.by_rows))
-      if (takeBetter (refine (start.viewpoint, step), best))
+      if (takeBetter (refine (start.viewpoint, step, best), best))
         break;
     return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
   }
@@ -268,17 +268,21 @@ private:
 
   // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead from far off,
   // where single rays do not. In a narrow valley, the search ends early: it begins again from there.
-  std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR) const
+  // \param known what another start has led to; nothing is found if this one leads there too
+  std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR,
+                                   const std::optional<RatedViewpoint>& known = {}) const
   {
     constexpr double CLOSER = 0.16, // the step after two rounds
         CLEARLY = 0.9;              // by hand
     std::optional<RatedViewpoint> best;
-    takeBetter (refineBy (start, step, true), best);
+    takeBetter (refineBy (start, step, true, known), best);
+    if (best && known && best->cost == known->cost)
+      return {};
     if (!best || !isSeenFrom (best->viewpoint))
-      takeBetter (refineBy (start, step, false), best);
+      takeBetter (refineBy (start, step, false, known), best);
     for (double cost = std::numeric_limits<double>::infinity (); best && best->cost < cost;) {
       cost = CLEARLY * best->cost;
-      takeBetter (refineBy (best->viewpoint, CLOSER * step, true), best);
+      takeBetter (refineBy (best->viewpoint, CLOSER * step, true, {}), best);
     }
     return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
   }
@@ -303,28 +307,37 @@ private:
   }
 
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
-  std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
+  // \param known where the descent ends if it comes within its step
+  std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows,
+                                     const std::optional<RatedViewpoint>& known) const
   {
     constexpr std::size_t EARLY = 3; // rounds
     bool is_explained = false;
+    std::vector<RayPatch> patches;
+    const auto goesOn = [&] (const EvidenceLimits& limits, const EvidenceExcess& excess) {
+      if (is_explained || !isHopeless (patches, viewpoint, limits, excess))
+        return true;
+      return is_explained = explains (viewpoint);
+    };
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
-      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
+      patches = findRayPatches (positions_, viewpoint, limits, run_);
+      if (round == EARLY && !goesOn (limits, limits_.early_from_far))
+        return {};
       const auto cost = [&] (const Viewpoint& v) {
         return findRaySpread (positions_, patches, v, with_rows, run_);
       };
       viewpoint =
           patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
               .viewpoint;
+      if (known && known->viewpoint.is_far == viewpoint.is_far &&
+          (known->viewpoint.place - viewpoint.place).norm () < step)
+        return known->viewpoint;
       step *= 0.4;
-      const EvidenceExcess& excess = round >= EARLY     ? limits_.late
-                                     : viewpoint.is_far ? limits_.early_from_far
-                                                        : limits_.early;
-      if (!is_explained && isHopeless (patches, viewpoint, limits, excess)) {
-        is_explained = explains (viewpoint);
-        if (!is_explained)
-          return {};
-      }
+      if (!goesOn (limits, round >= EARLY     ? limits_.late
+                           : viewpoint.is_far ? limits_.early_from_far
+                                              : limits_.early))
+        return {};
     }
     if (isSeenFrom (viewpoint) || explains (viewpoint))
       return viewpoint;
