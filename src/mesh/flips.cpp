@@ -56,7 +56,7 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
   std::array<Eigen::Vector3d, 3> part;
   for (std::uint8_t side = 0; side < 3; ++side) {
     // Not cached: nearly all of these splits are never made.
-    const TriangleCost::Value value = cost.once (p, corners[side][1], corners[side][2]);
+    const TriangleCost::Value value = cost.plain ().value (p, corners[side][1], corners[side][2]);
     part[side] = value.unit_normal;
     added += value.cost;
     if (added > limit)

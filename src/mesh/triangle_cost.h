@@ -95,16 +95,6 @@ public:
 
   const TriangleCost& plain () const { return cost_; }
 
-  /// A value that is not cached, as it is unlikely to be needed again.
-  TriangleCost::Value once (Index a, Index b, Index c)
-  {
-    ++asked_;
-    return cost_.value (a, b, c);
-  }
-
-  /// Number of requested values: a machine-independent measure of work.
-  std::size_t asked () const { return asked_; }
-
   /// Valid until the next call.
   const TriangleCost::Value& operator() (Index a, Index b, Index c)
   {
@@ -129,7 +119,6 @@ private:
 
   const TriangleCost::Value& find (Index a, Index b, Index c)
   {
-    ++asked_;
     // Multiplicative hashing; the high bits are the best mixed.
     const std::uint64_t mixed =
         a * 0x9E3779B97F4A7C15ULL + b * 0xC2B2AE3D27D4EB4FULL + c * 0x165667B19E3779F9ULL;
@@ -146,7 +135,6 @@ private:
 
   const TriangleCost& cost_;
   std::vector<Entry> entries_;
-  std::size_t asked_ = 0;
 };
 
 } // namespace pcl::floater
