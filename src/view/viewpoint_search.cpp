@@ -72,7 +72,7 @@ public:
       return {};
     // Rays are evenly spaced from the right direction only; from others, less than from those
     // around.
-    std::optional<RatedViewpoint> best;
+    std::optional<Found> best;
     for (const RatedViewpoint& start : keepApart (candidates, APART, limits_.by_rows))
       if (takeBetter (refine (start.viewpoint, step, best), best))
         break;
@@ -116,7 +116,7 @@ public:
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
     candidates.resize (std::min (candidates.size (), limits_.by_rays));
     for (const RatedViewpoint& candidate : candidates) {
-      std::optional<RatedViewpoint> found;
+      std::optional<Found> found;
       if (!takeBetter (refineWithFar (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
           may_be_far_)
         takeBetter (refine (mirrored (candidate.viewpoint)), found);
@@ -133,17 +133,21 @@ private:
   static constexpr double FARTHER = 0.5;     // of the spread of rays from far away
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
+  // A viewpoint with enough evidence.
+  struct Found
+  {
+    double cost; // spread of the rays and rows
+    Viewpoint viewpoint;
+    bool is_even; // the rays are evenly spaced; else it explains the density
+  };
+
   // Accepts a viewpoint with more even rays. Returns whether they are even enough to end the
   // search.
-  bool takeBetter (const std::optional<Viewpoint>& found, std::optional<RatedViewpoint>& best) const
+  static bool takeBetter (const std::optional<Found>& found, std::optional<Found>& best)
   {
-    if (!found)
-      return false;
-    const double cost = findRaySpread (
-        positions_, findRayPatches (positions_, *found, evidence_, run_), *found, true, run_);
-    if (!best || cost < best->cost)
-      best = RatedViewpoint{cost, *found};
-    return cost < EVEN;
+    if (found && (!best || found->cost < best->cost))
+      best = found;
+    return found && found->cost < EVEN;
   }
 
   // Whether an evenly sampled cloud is seen from this place, and not from any far one on this side,
@@ -247,12 +251,12 @@ private:
   }
 
   // Areas hardly separate far viewpoints: parallel rays are tried first.
-  std::optional<Viewpoint> refineWithFar (const Viewpoint& viewpoint) const
+  std::optional<Found> refineWithFar (const Viewpoint& viewpoint) const
   {
     constexpr double FAR = 1.5; // bounding boxes
     const Eigen::Vector3d offset = box_.center () - viewpoint.place;
     if (may_be_far_ && !viewpoint.is_far && offset.norm () > FAR)
-      if (const std::optional<Viewpoint> found = refine ({offset.normalized (), true}))
+      if (const std::optional<Found> found = refine ({offset.normalized (), true}))
         return found;
     return refine (viewpoint);
   }
@@ -269,27 +273,22 @@ private:
   // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead from far off,
   // where single rays do not. In a narrow valley, the search ends early: it begins again from there.
   // \param known what another start has led to; nothing is found if this one leads there too
-  std::optional<Viewpoint> refine (const Viewpoint& start, double step = AREA_ERROR,
-                                   const std::optional<RatedViewpoint>& known = {}) const
+  std::optional<Found> refine (const Viewpoint& start, double step = AREA_ERROR,
+                               const std::optional<Found>& known = {}) const
   {
     constexpr double CLOSER = 0.16, // the step after two rounds
         CLEARLY = 0.9;              // by hand
-    std::optional<RatedViewpoint> best;
+    std::optional<Found> best;
     takeBetter (refineBy (start, step, true, known), best);
     if (best && known && best->cost == known->cost)
       return {};
-    if (!best || !isSeenFrom (best->viewpoint))
+    if (!best || !best->is_even)
       takeBetter (refineBy (start, step, false, known), best);
     for (double cost = std::numeric_limits<double>::infinity (); best && best->cost < cost;) {
       cost = CLEARLY * best->cost;
       takeBetter (refineBy (best->viewpoint, CLOSER * step, true, {}), best);
     }
-    return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
-  }
-
-  bool isSeenFrom (const Viewpoint& viewpoint) const
-  {
-    return isSeenFromThere (evidenceAt (viewpoint), evidence_);
+    return best;
   }
 
   RayEvidence evidenceAt (const Viewpoint& viewpoint) const
@@ -299,29 +298,30 @@ private:
   }
 
   // Along a far direction, nothing is beside.
-  bool explains (const Viewpoint& viewpoint) const
+  bool explains (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
   {
-    return !viewpoint.is_far &&
-           explainsDensity (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
-                            viewpoint, evidence_, run_);
+    return !viewpoint.is_far && explainsDensity (positions_, patches, viewpoint, evidence_, run_);
   }
 
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
   // \param known where the descent ends if it comes within its step
-  std::optional<Viewpoint> refineBy (Viewpoint viewpoint, double step, bool with_rows,
-                                     const std::optional<RatedViewpoint>& known) const
+  std::optional<Found> refineBy (Viewpoint viewpoint, double step, bool with_rows,
+                                 const std::optional<Found>& known) const
   {
     constexpr std::size_t EARLY = 3; // rounds
     bool is_explained = false;
     std::vector<RayPatch> patches;
+    const auto findPatches = [&] (const EvidenceLimits& limits) {
+      return findRayPatches (positions_, viewpoint, limits, run_);
+    };
     const auto goesOn = [&] (const EvidenceLimits& limits, const EvidenceExcess& excess) {
       if (is_explained || !isHopeless (patches, viewpoint, limits, excess))
         return true;
-      return is_explained = explains (viewpoint);
+      return is_explained = explains (viewpoint, findPatches (evidence_));
     };
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
-      patches = findRayPatches (positions_, viewpoint, limits, run_);
+      patches = findPatches (limits);
       if (round == EARLY && !goesOn (limits, limits_.early_from_far))
         return {};
       const auto cost = [&] (const Viewpoint& v) {
@@ -332,16 +332,19 @@ private:
               .viewpoint;
       if (known && known->viewpoint.is_far == viewpoint.is_far &&
           (known->viewpoint.place - viewpoint.place).norm () < step)
-        return known->viewpoint;
+        return known;
       step *= 0.4;
       if (!goesOn (limits, round >= EARLY     ? limits_.late
                            : viewpoint.is_far ? limits_.early_from_far
                                               : limits_.early))
         return {};
     }
-    if (isSeenFrom (viewpoint) || explains (viewpoint))
-      return viewpoint;
-    return {};
+    patches = findPatches (evidence_);
+    const bool is_even = isSeenFromThere (
+        findRayEvidence (positions_, patches, viewpoint, evidence_, run_), evidence_);
+    if (!is_even && !explains (viewpoint, patches))
+      return {};
+    return Found{findRaySpread (positions_, patches, viewpoint, true, run_), viewpoint, is_even};
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
