@@ -31,7 +31,7 @@ public:
   {
   }
 
-  void judge ()
+  std::vector<FacingObject> judge ()
   {
     const bool is_scan = hints_.sensor && !hints_.faces_sensor &&
                          (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS) &&
@@ -54,8 +54,10 @@ public:
                 0.5 + 0.5 * std::abs (sums.along) / sums.told);
       else if (hints_.wanted == Facing::UP && !sums.is_closed)
         decideUp (o);
-      else if (hints_.wanted == Facing::VIEWPOINT && isTowardsOneSide (sums) &&
-               (sums.is_closed || !hints_.faces_sensor))
+      // A closed component has one side towards the sensor only if the sensor is within it.
+      else if (hints_.wanted == Facing::VIEWPOINT &&
+               (sums.is_closed ? std::abs (sums.seen) > limits_.within_share * sums.in_sight
+                               : !hints_.faces_sensor))
         decideBySensor (o); // NOLINT(bugprone-branch-clone): the order is that of the evidence
       else if (sums.is_closed) {
         if (hints_.wanted == Facing::UP || hints_.wanted == Facing::VIEWPOINT)
@@ -82,18 +84,12 @@ public:
     if (hints_.wanted == Facing::INWARDS)
       for (std::uint8_t& is_turned : is_turned_)
         is_turned ^= 1U;
+    return judged_;
   }
 
-  const std::vector<FacingObject>& objects () const { return judged_; }
   bool isTurned (Index object) const { return is_turned_[object] != 0; }
 
 private:
-  // A closed component has one side towards the sensor only if the sensor is within it.
-  bool isTowardsOneSide (const FacingSums& sums) const
-  {
-    return !sums.is_closed || std::abs (sums.seen) > limits_.within_share * sums.in_sight;
-  }
-
   void decideBySensor (Index o)
   {
     const FacingSums& sums = objects_.sums[o];
@@ -104,11 +100,10 @@ private:
   void decideUp (Index o)
   {
     const FacingSums& sums = objects_.sums[o];
-    if (sums.from_above <= limits_.flatness * sums.area) // upright
-      decide (o, FacingRule::UP, facesDown (sums.area_vector, limits_), 0.5);
-    else
-      decide (o, FacingRule::UP, sums.area_vector.z () < 0.0,
-              0.5 + 0.5 * std::abs (sums.area_vector.z ()) / sums.from_above);
+    const double up = sums.area_vector.z ();
+    const bool stands = sums.from_above <= limits_.flatness * sums.area;
+    decide (o, FacingRule::UP, stands ? facesDown (sums.area_vector, limits_) : up < 0.0,
+            stands ? 0.5 : 0.5 + 0.5 * std::abs (up) / sums.from_above);
   }
 
   // Orients an open object outwards, even if it hardly is a body.
@@ -136,13 +131,12 @@ private:
   double commonBulge ()
   {
     double sum = 0.0, area = 0.0;
-    for (Index o = 0; !common_bulge_ && o < judged_.size (); ++o) {
-      const FacingSums& sums = objects_.sums[o];
-      if (sums.is_closed || !isUpright (sums.area_vector, limits_))
-        continue;
-      sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector, limits_) ? -1.0 : 1.0);
-      area += sums.area;
-    }
+    for (Index o = 0; !common_bulge_ && o < judged_.size (); ++o)
+      if (const FacingSums& sums = objects_.sums[o];
+          !sums.is_closed && isUpright (sums.area_vector, limits_)) {
+        sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector, limits_) ? -1.0 : 1.0);
+        area += sums.area;
+      }
     if (!common_bulge_)
       common_bulge_ = area > 0.0 ? sum / area : 0.0;
     return *common_bulge_;
@@ -407,8 +401,7 @@ faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   const MeshComponents found = findComponents (mesh, run);
   const FacingObjects objects = findObjects (mesh, positions, found, usable, limits, run);
   FacingJudge judge (mesh, positions, found, objects, usable, limits, run);
-  judge.judge ();
-  facing.objects = judge.objects ();
+  facing.objects = judge.judge ();
   std::vector<std::uint8_t> is_turned;
   for (Index c = 0; c < found.count; ++c)
     is_turned.push_back (

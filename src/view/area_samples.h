@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Areas around some points, which a scanner sees under the same solid angle.
+// Patches around some points, and their areas, which a scanner sees under the same solid angle.
 #pragma once
 
 #include "local/local_geometry.h"
@@ -9,6 +9,14 @@
 #include <vector>
 
 namespace pcl::floater {
+/// Patches around points that are spread evenly over their order, over their neighbours: also across
+/// rows that are far apart. Parallel rays to a patch are near each other for any direction.
+/// \param size points of a patch; fewer if there are no more around
+/// \return the points of each patch, sorted by distance to the first one
+std::vector<RayPatch>
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+                  std::size_t count, std::size_t size);
+
 /// A point and the area around it.
 struct AreaSample
 {

@@ -73,26 +73,6 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
 }
 
 std::vector<RayPatch>
-findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  std::size_t count, std::size_t size)
-{
-  std::vector<RayPatch> patches (count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
-    RayPatch& patch = patches[k];
-    patch.assign (1, static_cast<Index> (seed));
-    for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
-      for (const Index q : neighbors.row (patch[i]))
-        if (patch.size () < size && std::find (patch.begin (), patch.end (), q) == patch.end ())
-          patch.push_back (q);
-    const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
-    std::stable_sort (patch.begin (), patch.end (),
-                      [&] (Index a, Index b) { return distance (a) < distance (b); });
-  }
-  return patches;
-}
-
-std::vector<RayPatch>
 findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run)
 {

@@ -28,14 +28,6 @@ struct RowEvidence
 RowEvidence
 findRows (const Points& points, const CsrLists& neighbors, std::size_t count);
 
-/// Patches around points that are spread evenly over their order, over their neighbours: also across
-/// rows that are far apart. Parallel rays to a patch are near each other for any direction.
-/// \param size points of a patch; fewer if there are no more around
-/// \return the points of each patch, sorted by distance to the first one
-std::vector<RayPatch>
-findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                  std::size_t count, std::size_t size);
-
 struct EvidenceLimits
 {
   std::size_t patches = 128;     ///< patches of rays, spread over the cloud
