@@ -25,13 +25,14 @@ namespace {
 constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as others
 
 // Whether stars are open as along the border of a sheet. A square has four times as many points on
-// it as the root of all, and a third of their stars are open: the others reach back. Half of that.
+// it as the root of all, and a third of their stars are open: the others reach back. Half a ball has
+// two and a half times as many, and a sixth of their stars. Half of that, nearly.
 bool
 isOpen (const Stars& stars)
 {
   const auto open = static_cast<double> (
       std::count_if (stars.open.begin (), stars.open.end (), [] (auto is) { return is != 0; }));
-  return 4.0 * open * open >= static_cast<double> (stars.open.size ());
+  return 16.0 * open * open >= static_cast<double> (stars.open.size ());
 }
 
 // Reconstructs a cloud whose viewpoint is unknown, or that is not a single scan.

@@ -27,6 +27,8 @@ public:
       box_.extend (position);
     evidence_.hidden_share *= evidence_.density_regularity / limits.density_regularity;
     evidence_.density_regularity = limits.density_regularity;
+    if (!may_be_far) // with evidence of its own, see isDetermined ()
+      evidence_.regularity *= limits.late.regularity;
     coarse_ = evidence_;
     coarse_.patches = std::min (coarse_.patches, limits.coarse_patches);
     constexpr std::size_t EVERY = 4;

@@ -49,7 +49,7 @@ struct Plane
 struct Thing
 {
   Eigen::Vector3d place; ///< middle of a ball, foot of an upright post
-  double radius;
+  double radius; ///< negative: its inside is seen
   bool is_post;
 };
 
@@ -76,7 +76,7 @@ depthOf (const Thing& thing, const ScanRay& ray)
     offset.z () = along.z () = 0.0;
   const double a = along.squaredNorm (), b = offset.dot (along);
   const double root = b * b - a * (offset.squaredNorm () - thing.radius * thing.radius);
-  return root > 0.0 ? (-b - std::sqrt (root)) / a : -1.0;
+  return root > 0.0 ? (-b - std::copysign (std::sqrt (root), thing.radius)) / a : -1.0;
 }
 
 /// What the rays meet first, as seen from where the first one begins.

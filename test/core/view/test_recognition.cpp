@@ -128,6 +128,35 @@ TEST (Recognition, ANoisyFrameOfACornerIsRecognised)
   }
 }
 
+// A ball and a bowl of nearly even points, of which a tenth are lost: nothing else tells that the bowl
+// is seen from within.
+TEST (Recognition, ABowlThatLacksPointsFacesItsSensor)
+{
+  constexpr double FAR = 10.0;
+  const Eigen::Vector3d place (0.25, 0.0, 0.8);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE (seed);
+    RandomStream random (seed);
+    const double turn = random.uniform () - 0.5;
+    const Scene scene{{},
+                      {{{-0.13, 0.1 * turn, -0.13}, 0.1, false}, {{0.13, 0.0, 0.0}, -0.11, false}},
+                      {Eigen::Vector3d (-FAR, -FAR, -FAR), Eigen::Vector3d (FAR, FAR, -0.01)}};
+    std::vector<ScanRay> rays;
+    for (int i = -130; i <= 130; ++i)
+      for (int j = -110; j <= 110; ++j)
+        if (random.uniform () > 0.1)
+          rays.push_back (
+              {place, Eigen::Vector3d (0.0025 * i - 0.3, 0.0025 * j, -1.0).normalized ()});
+    const Scan scan = castRays (scene, rays, {1e-4, 0.0}, random);
+    const Result result = meshOf (scan.points);
+    EXPECT_TRUE (result.report.is_view);
+    for (const auto& [a, b, c] : result.triangles) {
+      const Eigen::Vector3d normal = areaVector (scan.points[a], scan.points[b], scan.points[c]);
+      ASSERT_GT (normal.dot (place - scan.points[a]), 0.0);
+    }
+  }
+}
+
 // A sensor that stands low on wide ground is near its mirror image below it, from where points
 // stand for the same areas.
 TEST (Recognition, AScannerLowOnTheGroundIsFound)
