@@ -382,7 +382,8 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
       if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
         return found;
   }
-  const std::size_t least_share = for_uneven ? 4 : 1; // a quarter of the patches
+  // Noise needs all patches, else a quarter of them does.
+  const std::size_t least_share = reason == SearchReason::NOISE ? 1 : 4;
   if (least_share * filled.patches < evidence.patches || !search.hasSamples () ||
       (reason != SearchReason::NOISE && (search.spreadOfAreas () > limits.even) != for_uneven))
     return {};
