@@ -1,13 +1,38 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which clouds are taken for a scan, where the sensor was, and which given places are doubted.
+// Which clouds are taken for a scan, where the sensor was, and which given places are doubted; the rows of a scanner.
 #include "scan_samples.h"
+#include "view/ray_evidence.h"
 
 #include <gtest/gtest.h>
 
 namespace pcl::floater {
 namespace {
 using namespace samples;
+
+Eigen::Vector3d
+foundIn (const Report& report)
+{
+  return Eigen::Vector3d (report.viewpoint.data ());
+}
+
+using ScansOfARoom = testing::TestWithParam<std::tuple<Raster, std::uint64_t>>;
+
+// Areas must tell roughly where to look: noise of up to one and a half spacings of a camera's pixels,
+// or a third of those of rays in a ring. Along rings, only the spacing within each tells.
+TEST_P (ScansOfARoom, TheViewpointIsFound)
+{
+  const auto& [raster, seed] = GetParam ();
+  const bool in_rings = raster == Raster::RINGS;
+  const Scan scan = scanScene (raster, {in_rings ? 0.001 : 0.01, 0.0}, seed);
+  const Eigen::Vector3d found = foundIn (viewOf (scan, {}).report);
+  EXPECT_LT ((found - scan.viewpoint).norm (), in_rings ? 0.5 : 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P (Scans, ScansOfARoom,
+                          testing::Combine (testing::Values (Raster::CAMERA, Raster::RINGS,
+                                                             Raster::SPHERE),
+                                            testing::Range<std::uint64_t> (1, 6)));
 
 // Where curves of a rosette cross, rays nearly coincide, and some points are alone in gaps between
 // them; they do not contradict the view.
@@ -50,15 +75,59 @@ TEST (Recognition, ASensorInTheFileDecidesWhereThePointsDoNotTell)
   }
 }
 
-// A star of points that are even as seen from its middle, but at changing distances: the view would
-// be closed, and is no scan.
-TEST (Recognition, ABodyAroundTheOriginIsNoScan)
+// Rings of a car's lidar: each begins anywhere, they are unevenly far apart, and rays are lost.
+Scan
+scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed)
 {
-  Positions star = evenSphere (5000);
-  for (Eigen::Vector3d& point : star)
+  RandomStream random (seed);
+  std::vector<ScanRay> rays;
+  for (const Eigen::Vector3d& place : places)
+    for (int ring = 0; ring < 40; ++ring) {
+      const double elevation = -24.0 + (ring < 20 ? 0.8 * ring : 16.0 + 0.35 * (ring - 20));
+      const Eigen::AngleAxisd turn (random.uniform (), Eigen::Vector3d::UnitZ ());
+      for (ScanRay& ray : raysInRings (place, 1, 900, elevation, 0.0))
+        if (random.uniform () > 0.1)
+          rays.push_back ({place, turn * ray.along});
+    }
+  return castRays (courtyard (), rays, {0.002, 0.0}, random);
+}
+
+// The origin is tried first, and taken as it is.
+TEST (Recognition, ASensorInTheOriginIsToldFromOneBesideIt)
+{
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero (), beside (0.3, 1.0, -0.2);
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    SCOPED_TRACE (seed);
+    EXPECT_EQ (foundIn (viewOf (scanOfCar ({origin}, seed), {}).report), origin);
+    EXPECT_LT ((foundIn (viewOf (scanOfCar ({beside}, seed), {}).report) - beside).norm (), 0.1);
+    EXPECT_FALSE (meshOf (scanOfCar ({origin, beside}, seed).points).report.is_view);
+  }
+}
+
+TEST (Recognition, WhatNoSensorSawIsNoScan)
+{
+  // A star of points that are even as seen from its middle, but at changing distances: the view would
+  // be closed.
+  std::vector<Positions> clouds{evenSphere (5000)};
+  for (Eigen::Vector3d& point : clouds.front ())
     point *= 1.0 + 0.4 * std::sin (5.0 * point.x ()) * std::cos (4.0 * point.y ());
-  const Result result = meshOf (star);
-  EXPECT_FALSE (result.report.is_view);
+  // Rasters of heights, as even from far away, on either side; and points at random.
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RandomStream random (seed);
+    const double phase = 6.0 * random.uniform (), height = 0.1 + 0.1 * random.uniform ();
+    const Eigen::Vector3d shift (-random.uniform (), -random.uniform (), 0.5 + random.uniform ());
+    for (const bool is_raster : {true, false}) {
+      Positions& cloud =
+          clouds.emplace_back (is_raster ? jitteredGrid (128, 96, 1.0 / 120.0, 0.0, random)
+                                         : randomPoints (10000, seed));
+      for (Eigen::Vector3d& p : cloud)
+        p = shift +
+            Eigen::Vector3d (p.x (), p.y (),
+                             height * std::sin (5.0 * p.x () + phase) * std::cos (4.0 * p.y ()));
+    }
+  }
+  for (std::size_t cloud = 0; cloud < clouds.size (); ++cloud)
+    EXPECT_FALSE (meshOf (clouds[cloud]).report.is_view) << cloud;
 }
 
 // Along lines, points tell that they were scanned even if there is hardly any noise. Of the seeds 1
@@ -72,8 +141,7 @@ TEST (Recognition, TheDirectionOfALineScannerIsFound)
     SCOPED_TRACE (seed);
     const Scan scan = scanScene (Raster::LINES, {0.0002, 0.0}, seed);
     const Report report = viewOf (scan, {}).report;
-    const double cosine =
-        std::abs (Eigen::Vector3d (report.viewpoint.data ()).dot (scan.viewpoint));
+    const double cosine = std::abs (foundIn (report).dot (scan.viewpoint));
     EXPECT_GT (cosine, NEAR);
     right += cosine > RIGHT ? 1 : 0;
     EXPECT_LE (report.check.components, 8U);
@@ -104,7 +172,7 @@ TEST (Recognition, TheDirectionOfALineScannerOverATableIsFound)
     const Scan scan = castRays (table, rays, {0.01 / FAR, 0.0}, random);
     const Report report = meshOf (scan.points).report;
     EXPECT_TRUE (report.is_view);
-    EXPECT_GT (std::abs (Eigen::Vector3d (report.viewpoint.data ()).dot (towards)), 1.0 - 1e-5);
+    EXPECT_GT (std::abs (foundIn (report).dot (towards)), 1.0 - 1e-5);
   }
 }
 
@@ -124,7 +192,7 @@ TEST (Recognition, ANoisyFrameOfACornerIsRecognised)
     const Scan scan = castRays (corner, raysOf (Raster::CAMERA, place, look), {noise, 0.0}, random);
     const Report report = meshOf (scan.points).report;
     ASSERT_TRUE (report.is_view);
-    EXPECT_LT ((Eigen::Vector3d (report.viewpoint.data ()) - place).norm (), 0.005);
+    EXPECT_LT ((foundIn (report) - place).norm (), 0.005);
   }
 }
 
@@ -170,7 +238,7 @@ TEST (Recognition, AScannerLowOnTheGroundIsFound)
   int right = 0;
   for (std::uint64_t seed = 5; seed <= 9; ++seed) {
     const Scan scan = scanYard ({0.0005, 0.0}, seed);
-    const Eigen::Vector3d found (viewOf (scan, {}).report.viewpoint.data ());
+    const Eigen::Vector3d found = foundIn (viewOf (scan, {}).report);
     right += (found - scan.viewpoint).norm () < 0.01 ? 1 : 0;
   }
   EXPECT_GE (right, 4);
@@ -195,10 +263,36 @@ TEST (Recognition, AScannerInARoomIsFoundToAFractionOfAStep)
                                   is_dense ? raysInRings (place, 201, 480, -60.0, 0.75)
                                            : raysInRings (place, 32, 1800, -25.0, 35.0 / 31.0),
                                   {is_dense ? 0.0007 : 0.005, 0.0}, random);
-      const Eigen::Vector3d found (viewOf (scan, {}).report.viewpoint.data ());
+      const Eigen::Vector3d found = foundIn (viewOf (scan, {}).report);
       EXPECT_LT ((found - place).norm (), 0.002);
     }
   }
+}
+
+// Twenty rows of 200 points: lines, circles, and lines of which every tenth goes up a slope.
+TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
+{
+  Positions lines, circles, slopes, random = randomPoints (4000, 385);
+  for (Eigen::Vector3d& p : random) {
+    p.z () = 0.0;
+    const auto i = static_cast<int> (lines.size ()), row = i / 200, at = i % 200;
+    lines.emplace_back (at, 10.0 * row, 0.02 * row * at);
+    circles.emplace_back (40.0 * std::cos (0.0314 * at), 40.0 * std::sin (0.0314 * at), 12.0 * row);
+    slopes.emplace_back (lines.back () + Eigen::Vector3d (0, 0, row % 10 == 0 ? 2.0 * at : 0.0));
+  }
+  const auto rowsOf = [] (const Positions& positions) {
+    const Points points = workingPoints (positions);
+    return findRows (points, findNeighbors (points, {}, 1), 200);
+  };
+  EXPECT_GT (rowsOf (lines).share, 0.95);
+  EXPECT_TRUE (rowsOf (lines).are_straight);
+  EXPECT_GT (rowsOf (circles).share, 0.95);
+  EXPECT_FALSE (rowsOf (circles).are_straight);
+  EXPECT_GT (std::abs (rowsOf (circles).across.z ()), 0.999);
+  EXPECT_FALSE (rowsOf (slopes).are_straight); // enough to know the plane of the rows
+  EXPECT_GT (std::abs (rowsOf (slopes).across.y ()), 0.99);
+  // By chance, the second neighbour lies opposite to the first one in a quarter of all directions.
+  EXPECT_LT (rowsOf (random).share, 0.5);
 }
 
 // \param origin of the file
