@@ -3,6 +3,9 @@
 // The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, both
 // finders of loops, and the stage as a whole.
 #include "floater/boundary/boundary.h"
+
+#include "consensus/consensus_method.h"
+#include "options/option_rows.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -263,26 +266,37 @@ TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
 }
 
 Boundary
-find (const Neighborhoods& made, const BoundaryOptions& options)
+find (const Neighborhoods& made, BoundaryMethod method)
 {
-  Boundary boundary = findBoundary (made.points, made.geometry, options, 1);
-  checkBoundary (made.points, made.geometry.spacing, !options.loop.empty (), boundary);
+  BoundaryOptions options;
+  options.method = method;
+  Boundary boundary = method == BoundaryMethod::CONSENSUS
+                          ? consensusLoop (made.points.positions, made.geometry, 1)
+                          : findBoundary (made.points, made.geometry, options, 1);
+  checkBoundary (made.points, made.geometry.spacing, false, boundary);
   return boundary;
 }
 
-TEST (Boundary, EveryMethodFindsTheBorderOfADiscAndNoneOfASphere)
+// A hole in the sheet is no border.
+TEST (Boundary, EveryMethodFindsTheBorderOfASheetAndNoneOfASphere)
 {
-  const Sheet sheet = disc (0.06, 1);
-  const Neighborhoods open = makeNeighborhoods (sheet.positions);
+  const Outline rim = circle (1.0, 0.06), hole = circle (0.4, 0.06);
   const Neighborhoods closed = makeNeighborhoods (evenSphere (1500));
-  for (const BoundaryMethod method :
-       {BoundaryMethod::SPANNING_TREE, BoundaryMethod::TWO_SEGMENTS}) {
-    BoundaryOptions options;
-    options.method = method;
-    const Boundary boundary = find (open, options), none = find (closed, options);
-    EXPECT_FALSE (boundary.problem);
-    EXPECT_EQ (canonicalCycle (inCloud (open, boundary.loop)), indices (sheet.border));
-    EXPECT_GE (boundary.candidates, sheet.border);
+  for (const auto& [name, method] : BOUNDARY_CHOICES) {
+    SCOPED_TRACE (name);
+    for (const std::vector<Outline>& outlines :
+         {std::vector<Outline>{rim}, std::vector<Outline>{rim, hole}}) {
+      const Sheet sheet = fillOutlines (outlines, 0.06, 0.35, 6);
+      const Neighborhoods open = makeNeighborhoods (sheet.positions);
+      const Boundary boundary = find (open, method);
+      EXPECT_FALSE (boundary.problem);
+      EXPECT_EQ (canonicalCycle (inCloud (open, boundary.loop)), indices (sheet.border));
+      const bool all_count = method != BoundaryMethod::TWO_SEGMENTS; // and not one cluster
+      EXPECT_GE (boundary.candidates,
+                 sheet.border + (all_count && outlines.size () > 1 ? hole.size () : 0));
+      EXPECT_LT (boundary.largest_step, 2.0);
+    }
+    const Boundary none = find (closed, method);
     EXPECT_EQ (none.problem.status, RunStatus::NO_BOUNDARY);
     EXPECT_FALSE (none.problem.message.empty ());
     EXPECT_TRUE (none.loop.empty ());
