@@ -54,6 +54,7 @@ TEST (MeshCheck, KnownSurfaces)
 {
   expectSound (tetrahedron (), 1, 2, 0, {});
   expectSound (torus (20, 9), 1, 0, 1, {});
+  expectSound (torus (300, 150), 1, 0, 1, {}); // points and triangles in several ranges
   expectSound (sheet (6), 1, 1, 0, {24});
   expectSound (annulus (30), 1, 0, 0, {30, 30});
   expectSound (beside (torus (12, 8), annulus (40)), 2, 0, 1, {40, 40});

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edge flips, the insertion of missing points, and both with the repair of folds.
+// The insertion of missing points, and what the end of a mesh repairs or refuses.
 #include "mesh/finish.h"
 
 #include "floater/planar_delaunay.h"
-#include "mesh/folds.h"
 #include "mesh/insertion.h"
 #include "mesh/known_meshes.h"
 
@@ -15,98 +14,32 @@
 namespace pcl::floater {
 namespace {
 using namespace samples;
-using Places = std::vector<Eigen::Vector2d>;
 
-Places
-planView (const Positions& positions)
-{
-  Places uv;
-  for (const Eigen::Vector3d& p : positions)
-    uv.emplace_back (p.x (), p.y ());
-  return uv;
-}
-
-// A round sheet as the library orders its points.
-struct SortedDisc
-{
-  Neighborhoods made;
-  std::vector<Index> loop;
-  std::vector<std::uint8_t> is_border; // of each point
-
-  SortedDisc (double step, std::uint64_t seed)
-  {
-    const Sheet sheet = disc (step, seed);
-    made = makeNeighborhoods (sheet.positions);
-    loop.resize (sheet.border);
-    for (Index p = 0; p < made.points.size (); ++p) {
-      const Index at = made.points.cloud_index[p];
-      is_border.push_back (at < sheet.border ? 1 : 0);
-      if (at < sheet.border)
-        loop[at] = p;
-    }
-  }
-};
-
+// A round sheet laid out as it is, some of whose inner points have no place in the plane.
 TEST (Insertion, PutsEveryPointIn)
 {
-  const SortedDisc disc (0.07, 7);
-  const Positions& positions = disc.made.points.positions;
-  const std::vector<Eigen::Vector3f> normals (positions.size (), Eigen::Vector3f::UnitZ ());
-  Places some = planView (positions);
+  const double nowhere = std::numeric_limits<double>::quiet_NaN ();
+  const Sheet sheet = disc (0.07, 7);
+  const auto [points, geometry] = makeNeighborhoods (sheet.positions);
+  std::vector<Index> loop (sheet.border);
+  std::vector<Eigen::Vector2d> uv;
   RandomStream random (8);
   std::size_t missing = 0;
-  for (std::size_t p = 0; p < some.size (); ++p)
-    if (disc.is_border[p] == 0 && random.uniform () < 0.2) {
-      some[p].setConstant (std::numeric_limits<double>::quiet_NaN ());
+  for (Index p = 0; p < points.size (); ++p) {
+    uv.emplace_back (points.positions[p].head<2> ());
+    if (const Index at = points.cloud_index[p]; at < sheet.border)
+      loop[at] = p;
+    else if (random.uniform () < 0.2) {
+      uv[p].setConstant (nowhere);
       ++missing;
     }
-  TriangleMesh mesh = triangulatePlane (some, disc.loop);
-  const TriangleCost cost (positions, normals);
-  const CsrLists& neighbors = disc.made.geometry.neighbors;
-  EXPECT_EQ (insertMissingPoints (mesh, neighbors, cost, false, 1), missing);
-  expectDisc (mesh, positions.size ());
-  EXPECT_EQ (insertMissingPoints (mesh, neighbors, cost, false, 1), 0U);
-}
-
-// A flat sheet whose triangulation has some points in the wrong places.
-struct MixedUpSheet : SortedDisc
-{
-  TriangleMesh mesh;
-
-  MixedUpSheet () : SortedDisc (0.07, 9)
-  {
-    Places mixed = planView (made.points.positions);
-    RandomStream random (10);
-    for (int i = 0; i < 6; ++i) {
-      const std::size_t p = random.below (mixed.size ());
-      const Index q = made.geometry.neighbors.row (p)[5];
-      if (is_border[p] == 0 && is_border[q] == 0)
-        std::swap (mixed[p], mixed[q]);
-    }
-    mesh = triangulatePlane (mixed, loop);
   }
-
-  MeshFinish finish (const FinishSettings& settings)
-  {
-    return finishMesh (mesh, made.points.positions, made.geometry, settings, 1);
-  }
-};
-
-TEST (Finish, PutsPointsInOrderThatThePlaneHasMixedUp)
-{
-  for (const bool flip : {false, true}) {
-    MixedUpSheet sheet;
-    const std::vector<Triangle> before = sheet.mesh.triangles;
-    FinishSettings settings;
-    settings.flip_edges = settings.repair = flip;
-    settings.largest_fold_share = 0.03; // as for a disc
-    const MeshFinish finish = sheet.finish (settings);
-    EXPECT_TRUE (finish.is_repairable);
-    expectDisc (sheet.mesh, sheet.made.points.size ());
-    EXPECT_EQ (findFolds (sheet.mesh, sheet.made.points.positions, 1).empty (), flip);
-    EXPECT_EQ (finish.flips > 0, flip);
-    EXPECT_EQ (unordered (sheet.mesh.triangles) == unordered (before), !flip);
-  }
+  TriangleMesh mesh = triangulatePlane (uv, loop);
+  const std::vector<Eigen::Vector3f> normals (points.size (), Eigen::Vector3f::UnitZ ());
+  const TriangleCost cost (points.positions, normals);
+  EXPECT_EQ (insertMissingPoints (mesh, geometry.neighbors, cost, false, 1), missing);
+  expectDisc (mesh, points.size ());
+  EXPECT_EQ (insertMissingPoints (mesh, geometry.neighbors, cost, false, 1), 0U);
 }
 
 TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)

@@ -45,13 +45,6 @@ TEST (SelfIntersections, TwoTrianglesThatShareACornerOrAnEdge)
   EXPECT_FALSE (crosses ({{0.2, 0.2, -1}, {0.2, 0.2, 0}, {0.2, 0.2, 1}}, {3, 4, 5}));
 }
 
-TEST (SelfIntersections, CleanMeshesHaveNone)
-{
-  for (const Mesh& mesh : {sheet (1), sheet (30), torus (40, 19), beside (sheet (5), sheet (3))})
-    EXPECT_TRUE (crossingOf (mesh).empty ());
-  EXPECT_TRUE (findSelfIntersections ({}, {}, 1).empty ());
-}
-
 // Triangles with corners anywhere, which cross hundreds of times and share no corner; and fans.
 Mesh
 randomTriangles (std::size_t triangles, std::size_t fans, std::uint64_t seed)

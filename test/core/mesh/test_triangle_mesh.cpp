@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mesh: neighbours, components, flips and splits; vertices that are split; normals of vertices.
+// The mesh: flips and splits; vertices that are split; normals of vertices.
 #include "mesh/triangle_mesh.h"
 
-#include "mesh/folds.h"
 #include "mesh/known_meshes.h"
 #include "mesh/vertex_splits.h"
 
@@ -13,25 +12,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <random>
 #include <stdexcept>
 
 namespace pcl::floater {
 namespace {
 using namespace samples;
 
-// Cells of a square grid, each cut in two.
-std::vector<Triangle>
-gridTriangles (Index side)
-{
-  return sheet (side - 1).triangles;
-}
-
 TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
 {
   RandomStream random (1);
-  TriangleMesh mesh = connected (gridTriangles (6), 136);
+  TriangleMesh mesh = connected (sheet (5).triangles, 136);
   std::size_t flips = 0;
   for (Index p = 36; p < 136; ++p) {
     mesh.split (static_cast<Index> (random.below (mesh.triangles.size ())), p);
@@ -51,75 +41,10 @@ TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
   EXPECT_EQ (expectDisc (mesh, 136).size (), 20U);
 }
 
-// Triangles of a large grid with points and triangles in random order.
-std::vector<Triangle>
-mixedGrid (Index side)
-{
-  std::vector<Triangle> triangles = gridTriangles (side);
-  const std::vector<Index> place = permutation (side * side, 1);
-  for (Triangle& t : triangles)
-    for (Index& p : t)
-      p = place[p];
-  std::shuffle (triangles.begin (), triangles.end (), std::mt19937 (2));
-  return triangles;
-}
-
-TEST (TriangleMesh, ConnectFindsTheTriangleAcrossEveryEdge)
-{
-  constexpr Index SIDE = 150; // points in two ranges
-  for (const std::vector<Triangle>& triangles : {gridTriangles (SIDE), mixedGrid (SIDE)}) {
-    std::map<std::pair<Index, Index>, Index> triangle_at; // left of each directed edge
-    for (Index t = 0; t < triangles.size (); ++t)
-      for (std::size_t i = 0; i < 3; ++i)
-        triangle_at[{triangles[t][i], triangles[t][(i + 1) % 3]}] = t;
-    TriangleMesh mesh;
-    mesh.triangles = triangles;
-    ASSERT_TRUE (mesh.connect (SIDE * SIDE + 3, 2));
-    for (Index t = 0; t < triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const auto across = triangle_at.find ({mesh.to ({t, side}), mesh.from ({t, side})});
-        EXPECT_EQ (mesh.neighbors[t][side], across == triangle_at.end () ? NONE : across->second);
-        EXPECT_GE (mesh.triangle_of[triangles[t][side]], t); // the last one
-      }
-    EXPECT_EQ (mesh.triangle_of[SIDE * SIDE + 2], NONE);
-  }
-}
-
-TEST (TriangleMesh, ComponentsAreNumberedByTheirFirstTriangles)
-{
-  constexpr Index SIDE = 300; // triangles in three ranges
-  for (const bool is_mixed : {false, true}) {
-    TriangleMesh mesh = connected (is_mixed ? mixedGrid (SIDE) : gridTriangles (SIDE), SIDE * SIDE);
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (Index& neighbor : mesh.neighbors[t])
-        if (neighbor != NONE && (t + neighbor) % 3 == 0) // so that there are many components
-          neighbor = NONE;
-    std::vector<Index> expected (mesh.triangles.size (), NONE);
-    Index count = 0;
-    for (Index start = 0; start < expected.size (); ++start)
-      if (expected[start] == NONE) {
-        std::vector<Index> front (1, start);
-        while (!front.empty ()) {
-          const Index t = front.back ();
-          front.pop_back ();
-          if (t == NONE || expected[t] != NONE)
-            continue;
-          expected[t] = count;
-          front.insert (front.end (), mesh.neighbors[t].begin (), mesh.neighbors[t].end ());
-        }
-        ++count;
-      }
-    EXPECT_GT (count, 40U);
-    const MeshComponents components = findComponents (mesh, 2);
-    EXPECT_EQ (components.count, count);
-    EXPECT_TRUE (components.of_triangle == expected);
-  }
-  EXPECT_EQ (findComponents ({}, 2).count, 0U);
-}
-
-// Adds points, and expects the same topology with all of them.
+// Adds points, and expects the same topology with all of them. That there are few folds then is tested with the whole
+// method, on stacked points.
 TriangleMesh
-expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {})
+expectSplits (Mesh mesh, const Positions& points)
 {
   const MeshTopology before = topologyOf (mesh.triangles);
   TriangleMesh result = connected (mesh);
@@ -128,7 +53,7 @@ expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {}
     added.push_back (static_cast<Index> (mesh.positions.size ()));
     mesh.positions.push_back (p);
   }
-  EXPECT_EQ (splitVertices (result, mesh.positions, added, limits, 1), points.size ());
+  EXPECT_EQ (splitVertices (result, mesh.positions, added, {}, 1), points.size ());
   expectConsistent (result);
   const MeshTopology after = topologyOf (result.triangles);
   EXPECT_EQ (after.vertices, before.vertices + points.size ());
@@ -136,12 +61,6 @@ expectSplits (Mesh mesh, const Positions& points, const SplitLimits& limits = {}
   EXPECT_EQ (after.components, before.components);
   EXPECT_EQ (after.loops.size (), before.loops.size ());
   return result;
-}
-
-std::size_t
-foldsOf (const TriangleMesh& mesh, const Positions& positions)
-{
-  return findFolds (mesh, positions, 1).size ();
 }
 
 TEST (VertexSplits, TopologyStaysWhereverPointsAre)
@@ -160,45 +79,6 @@ TEST (VertexSplits, TopologyStaysWhereverPointsAre)
                              offset * normalVector (random));
       expectSplits (mesh, points);
     }
-}
-
-// A flat sheet has no bending, and a point in it adds none.
-TEST (VertexSplits, FlatStaysFlat)
-{
-  const Mesh sheet = samples::sheet (6);
-  Positions positions = sheet.positions, inside;
-  for (int i = 0; i < 28; ++i)
-    inside.emplace_back (0.05 + 0.019 * i, 0.03 + 0.37 * (i % 2) + 0.007 * i, 0.0);
-  const TriangleMesh mesh = expectSplits (sheet, inside);
-  positions.insert (positions.end (), inside.begin (), inside.end ());
-  EXPECT_NEAR (areaOf (mesh.triangles, positions), 0.36, 1e-12);
-  EXPECT_EQ (foldsOf (mesh, positions), 0U);
-  // Beside the boundary, a point joins it: one more edge.
-  const TriangleMesh wider = expectSplits (sheet, {{0.33, -0.04, 0.0}});
-  EXPECT_EQ (topologyOf (wider.triangles).loops.front ().size (), 25U);
-}
-
-// Above each vertex of a bent sheet a stack of three points: no cut of a fan needs a fold.
-TEST (VertexSplits, StacksAreConnectedWithoutFolds)
-{
-  const Mesh sheet = cells (20, 20, [] (Index x, Index y) {
-    return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.1 * std::sin (0.5 * x));
-  });
-  RandomStream random (5);
-  Positions positions = sheet.positions, stacked;
-  for (const Eigen::Vector3d& p : sheet.positions)
-    for (int i = 0; i < 3; ++i)
-      stacked.emplace_back (p + 0.003 * normalVector (random));
-  const TriangleMesh mesh = expectSplits (sheet, stacked);
-  positions.insert (positions.end (), stacked.begin (), stacked.end ());
-  SplitLimits bending_only;
-  bending_only.fold = 0.0;
-  const std::size_t folds = foldsOf (mesh, positions);
-  EXPECT_LE (folds, 5U);
-  EXPECT_GT (foldsOf (expectSplits (sheet, stacked, bending_only), positions), 100U);
-  SplitLimits once;
-  once.passes = 0;
-  EXPECT_GE (foldsOf (expectSplits (sheet, stacked, once), positions), folds);
 }
 
 // A point within the rim, and a little above or below it, stays inside.
