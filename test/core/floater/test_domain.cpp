@@ -4,6 +4,7 @@
 #include "floater/domain.h"
 
 #include "core/geometry.h"
+#include "options/option_rows.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -14,10 +15,6 @@ using namespace samples;
 
 using Places = std::vector<Eigen::Vector2d>;
 
-constexpr Domain ALL_DOMAINS[] = {Domain::CIRCLE, Domain::SQUARE, Domain::POLYGON,
-                                  Domain::OWN_SHAPE};
-constexpr LoopSpacing ALL_SPACINGS[] = {LoopSpacing::CHORD_LENGTH, LoopSpacing::CENTRIPETAL,
-                                        LoopSpacing::UNIFORM};
 constexpr double LARGEST_BULGE = 2.6e-4; // of a square's side
 constexpr int SIDES = 6;
 
@@ -192,14 +189,14 @@ TEST (Domain, EveryLoopIsStrictlyConvex)
     short_steps[i] = 1e-13 * static_cast<double> (i);
   loops.push_back (roundLoop (short_steps));
   for (const Loop& loop : loops)
-    for (const Domain domain : ALL_DOMAINS)
+    for (const auto& [name, domain] : DOMAIN_CHOICES)
       expectStrictlyConvex (loop.lay (domain));
 }
 
 TEST (Domain, StepsAreByLengthByItsRootOrEqual)
 {
   const Loop loop = unevenLoop (50, 6);
-  for (const LoopSpacing spacing : ALL_SPACINGS) {
+  for (const auto& [spacing_name, spacing] : SPACING_CHOICES) {
     const auto step = [&] (std::size_t i) {
       return spacing == LoopSpacing::UNIFORM       ? 1.0
              : spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (loop.chord (i))
@@ -217,7 +214,7 @@ TEST (Domain, StepsAreByLengthByItsRootOrEqual)
       EXPECT_NEAR (uv[i].y (), std::sin (angle), 1e-13);
       length += step (i);
     }
-    for (const Domain domain : ALL_DOMAINS)
+    for (const auto& [name, domain] : DOMAIN_CHOICES)
       expectStrictlyConvex (loop.lay (domain, SIDES, spacing));
   }
 }

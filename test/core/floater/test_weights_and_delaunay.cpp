@@ -5,6 +5,7 @@
 
 #include "core/geometry.h"
 #include "floater/planar_delaunay.h"
+#include "options/option_rows.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -16,9 +17,6 @@ namespace {
 using namespace samples;
 
 using Places = std::vector<Eigen::Vector2d>;
-
-constexpr Weighting ALL_WEIGHTINGS[] = {Weighting::UNIFORM, Weighting::INVERSE_DISTANCE,
-                                        Weighting::SHAPE_PRESERVING, Weighting::MEAN_VALUE};
 
 std::vector<double>
 weigh (const Places& star, Weighting weighting, bool open = false)
@@ -109,7 +107,7 @@ TEST (Weights, OfRandomStars)
   for (int round = 0; round < 1000; ++round) {
     const Places star = randomClosedStar (random, round % 10 == 0 ? 120 : 12);
     const Eigen::Rotation2Dd turn (2.0 * PI * random.uniform ());
-    for (const Weighting weighting : ALL_WEIGHTINGS) {
+    for (const auto& [name, weighting] : WEIGHTING_CHOICES) {
       const std::vector<double> weights = weigh (star, weighting);
       expectPositiveSummingToOne (weights);
       expectPositiveSummingToOne (weigh (star, weighting, true));
@@ -165,10 +163,10 @@ TEST (Weights, OfDegenerateStarsArePositive)
       {{huge, 0.0}, {0.0, huge}, {-huge, -huge}},         // squares overflow
       {{infinite, 0.0}, {0.0, 1.0}, {-1.0, -1.0}}};
   for (std::size_t i = 0; i < degenerate.size (); ++i)
-    for (const Weighting weighting : ALL_WEIGHTINGS)
+    for (const auto& [name, weighting] : WEIGHTING_CHOICES)
       for (const bool open : {false, true}) {
-        SCOPED_TRACE (testing::Message () << "star " << i << " weighting "
-                                          << static_cast<int> (weighting) << " open " << open);
+        SCOPED_TRACE (testing::Message ()
+                      << "star " << i << " weighting " << name << " open " << open);
         expectPositiveSummingToOne (weigh (degenerate[i], weighting, open));
       }
   EXPECT_TRUE (weigh ({}, Weighting::MEAN_VALUE, true).empty ());
