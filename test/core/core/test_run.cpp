@@ -8,6 +8,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -88,27 +89,6 @@ TEST (RunMonitor, SlowCallbacksAreCalledSeldom)
   EXPECT_EQ (calls, 1);
 }
 
-// Returns when every monitor that has asked by now would ask again. A monitor of its own tells, so
-// that nothing is assumed of the time between two questions.
-void
-waitUntilAPollIsDue ()
-{
-  int questions = 0;
-  Statistics statistics;
-  RunMonitor monitor ({{},
-                       {},
-                       [&questions] {
-                         ++questions;
-                         return false;
-                       }},
-                      statistics);
-  monitor.beginStage (Stage::WORKING_SET); // asks
-  while (questions < 2) {
-    std::this_thread::yield ();
-    monitor.pollNowAndThen ();
-  }
-}
-
 // A monitor that records its callbacks.
 struct Recorder
 {
@@ -125,17 +105,18 @@ struct Recorder
                       }},
                      statistics};
 
-  // The fraction at this moment.
+  // The fraction at this moment. After a slow callback, the next one waits.
   double now ()
   {
-    waitUntilAPollIsDue ();
-    monitor.pollNowAndThen ();
+    for (done = -1.0; done < 0.0;)
+      monitor.pollNowAndThen ();
     return done;
   }
 };
 
 TEST (RunMonitor, StepsAndLoops)
 {
+  const std::chrono::milliseconds usual = std::exchange (RunMonitor::between_polls, {});
   Recorder recorder;
   const RunContext run (1, &recorder.monitor);
   run.beginStage (Stage::WORKING_SET);
@@ -156,7 +137,6 @@ TEST (RunMonitor, StepsAndLoops)
     const int questions = recorder.questions;
     std::thread ([&] { // neither does one of another thread, and it calls nothing back
       ProgressLoop elsewhere (run, 10);
-      waitUntilAPollIsDue ();
       elsewhere.reach (10);
     })
         .join ();
@@ -178,6 +158,7 @@ TEST (RunMonitor, StepsAndLoops)
   EXPECT_LT (recorder.done, 1.0);
   recorder.monitor.finish ();
   EXPECT_EQ (recorder.done, 1.0);
+  RunMonitor::between_polls = usual;
 }
 
 } // namespace

@@ -35,27 +35,21 @@ twoSheets (double gap)
   return points;
 }
 
-// Whether the point is 2.5 spacings inside its sheet, so that it has neighbours on all sides.
-bool
-isInner (const Neighborhoods& sheets, std::size_t p)
-{
-  const Eigen::Vector3d place = sheets.points.inCloud (static_cast<Index> (p));
-  return (place - Eigen::Vector3d (0.5, 0.5, place.z ())).cwiseAbs ().maxCoeff () <
-         0.5 - 2.5 / 30.0;
-}
-
-// Share of star neighbours on the other sheet.
+// Share of star neighbours on the other sheet; of points 2.5 spacings inside their sheet, so that they have neighbours
+// on all sides.
 double
 shareOfStrays (const Neighborhoods& sheets)
 {
-  const Positions& positions = sheets.points.positions;
   double strays = 0.0, all = 0.0;
-  for (std::size_t p = 0; p < positions.size (); ++p)
-    if (isInner (sheets, p))
-      for (const Index q : sheets.geometry.stars.neighbors.row (p)) {
-        all += 1.0;
-        strays += (positions[p].z () > 0.0) != (positions[q].z () > 0.0) ? 1.0 : 0.0;
-      }
+  for (Index p = 0; p < sheets.points.size (); ++p) {
+    const Eigen::Vector3d place = sheets.points.inCloud (p);
+    if ((place.head<2> ().array () - 0.5).abs ().maxCoeff () > 0.5 - 2.5 / 30.0)
+      continue;
+    for (const Index q : sheets.geometry.stars.neighbors.row (p)) {
+      all += 1.0;
+      strays += place.z () * sheets.points.inCloud (q).z () < 0.0 ? 1.0 : 0.0;
+    }
+  }
   return strays / all;
 }
 

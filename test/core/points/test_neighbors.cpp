@@ -271,44 +271,30 @@ TEST (CallerSearch, FindsTheSameAmongTheWorkingPoints)
   }
 }
 
-// The k nearest, and balls.
-std::vector<NeighborSettings>
-allSettings ()
-{
-  NeighborSettings nearest, few, balls;
-  few.options.k = 6;
-  balls.options.kind = Neighborhood::BALL_DELAUNAY;
-  return {nearest, few, balls};
-}
-
-// Chooses each point with the same probability, and all points of the cloud from `first_sure` on.
-std::vector<Index>
-chooseRemoved (const Points& points, double share, std::size_t first_sure, std::uint64_t seed)
-{
-  RandomStream random (seed);
-  std::vector<Index> removed;
-  for (Index p = 0; p < points.size (); ++p)
-    if (random.uniform () < share || points.cloud_index[p] >= first_sure)
-      removed.push_back (p);
-  return removed;
-}
-
-// Expects that lists which are renewed after the removal of points are those that a search finds.
+// Removes each point with the same probability, and the last ones. Expects that lists which are renewed then are those
+// that a search finds.
 void
-expectRenewed (const Positions& cloud, const std::vector<double>& shares, std::size_t first_sure,
+expectRenewed (const Positions& cloud, const std::vector<double>& shares, std::size_t last = 0,
                bool by_caller = false)
 {
   const Points all = workingPoints (cloud);
   BruteForceSearch search (cloud);
-  for (NeighborSettings settings : allSettings ()) {
+  NeighborSettings nearest, few, balls;
+  few.options.k = 6;
+  balls.options.kind = Neighborhood::BALL_DELAUNAY;
+  for (NeighborSettings settings : {nearest, few, balls}) {
     settings.search = by_caller ? &search : nullptr;
     const CsrLists before = findNeighbors (all, settings, 1);
     for (const double share : shares)
       for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        const std::vector<Index> removed = chooseRemoved (all, share, first_sure, seed);
+        RandomStream random (seed);
+        std::vector<Index> removed;
+        for (Index p = 0; p < all.size (); ++p)
+          if (random.uniform () < share || all.cloud_index[p] + last >= cloud.size ())
+            removed.push_back (p);
         Points left = all;
         removePoints (left, removed);
-        if (first_sure < cloud.size ()) { // the box shrinks, and positions are scaled again
+        if (last > 0) { // the box shrinks, and positions are scaled again
           EXPECT_LT (left.scale, 0.1 * all.scale);
         }
         const CsrLists expected = findNeighbors (left, settings, 1);
@@ -320,23 +306,20 @@ expectRenewed (const Positions& cloud, const std::vector<double>& shares, std::s
 
 TEST (RenewNeighbors, FindsTheSameAsANewSearch)
 {
-  const auto expectRenewedAll = [] (const Positions& cloud, const std::vector<double>& shares) {
-    expectRenewed (cloud, shares, cloud.size ());
-  };
-  expectRenewedAll (randomPoints (1500, 1), {0.0, 0.001, 0.02, 0.3, 0.9});
+  expectRenewed (randomPoints (1500, 1), {0.0, 0.001, 0.02, 0.3, 0.9});
   for (const std::size_t count : {1U, 2U, 5U, 12U, 25U})
-    expectRenewedAll (randomPoints (count, count), {0.3, 1.0});
+    expectRenewed (randomPoints (count, count), {0.3, 1.0});
   // A grid is full of equal distances, where indices decide which points are the neighbours.
   Positions grid;
   for (const Index i : permutation (1000, 2))
     grid.emplace_back (i % 10, i / 10 % 10, i / 100); // NOLINT (bugprone-integer-division)
-  expectRenewedAll (grid, {0.01, 0.2});
+  expectRenewed (grid, {0.01, 0.2});
   RandomStream random (3);
   for (const double jitter : {0.0, 0.3})
     expectRenewed (joined (jitteredGrid (30, 30, 1.0, jitter, random),
                            {{15.3, 14.8, 700.0}, {-90.0, 14.8, 3.0}, {15.1, 500.0, -33.0}}),
-                   {0.0, 0.05}, 900);
-  expectRenewed (joined (randomPoints (400, 5), Positions{{60.0, 0.0, 0.0}}), {0.05}, 400, true);
+                   {0.0, 0.05}, 3);
+  expectRenewed (joined (randomPoints (400, 5), Positions{{60.0, 0.0, 0.0}}), {0.05}, 1, true);
 }
 
 } // namespace

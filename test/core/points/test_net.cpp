@@ -124,28 +124,19 @@ TEST (Net, IsChosenWherePointsAreStacked)
 
 TEST (Net, PointsTakeTheirStackAlong)
 {
-  Points points = chosen (stackedSheet (40, 1600, 2, 0.05, true)).points;
-  const Index carrier = points.stacked.of.front ();
-  EXPECT_EQ (removePoints (points, {carrier}).size (), 3U);
-  EXPECT_EQ (points.size (), 1599U);
-  EXPECT_EQ (points.total (), 4797U);
-  EXPECT_EQ (points.stacked.own.size (), 1599U);
-  for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
-    EXPECT_LT (points.scale *
-                   (points.stacked.positions[i] - points.stacked.own[points.stacked.of[i]]).norm (),
-               0.11);
-  Points near;
-  near = chosen (stackedSheet (40, 1600, 2, 0.05, true)).points;
-  removePoints (near, {[&] {
-                  std::vector<Index> most = indices (near.size ());
-                  most.erase (most.begin () + 20, most.begin () + 60);
-                  return most;
-                }()});
-  EXPECT_EQ (near.total (), 120U); // scaled again, with their stacks
-  for (std::size_t i = 0; i < near.stacked.of.size (); ++i)
-    EXPECT_LT (near.scale *
-                   (near.stacked.positions[i] - near.stacked.own[near.stacked.of[i]]).norm (),
-               0.11);
+  const Points whole = chosen (stackedSheet (40, 1600, 2, 0.05, true)).points;
+  std::vector<Index> most = indices (whole.size ()); // all but a few, which are scaled again
+  most.erase (most.begin () + 20, most.begin () + 60);
+  for (const std::vector<Index>& removed : {std::vector<Index>{whole.stacked.of.front ()}, most}) {
+    Points points = whole;
+    EXPECT_EQ (removePoints (points, removed).size (), 3 * removed.size ());
+    EXPECT_EQ (points.size (), 1600 - removed.size ());
+    EXPECT_EQ (points.total (), 3 * points.size ());
+    const StackedPoints& stacked = points.stacked;
+    EXPECT_EQ (stacked.own.size (), points.size ());
+    for (std::size_t i = 0; i < stacked.of.size (); ++i)
+      EXPECT_LT (points.scale * (stacked.positions[i] - stacked.own[stacked.of[i]]).norm (), 0.11);
+  }
 }
 
 struct Cloud
