@@ -9,31 +9,24 @@ import sys
 import numpy as np
 import pcl_floater
 import pytest
+from files import OTHER_VALUES  # of test/tool
 
 SQUARE = np.zeros((9, 3))
 
 
-# A value of each option that is not its default. That it arrives is enough here: what it does is tested in the core.
-VALUES = dict(
-    threads=1, method="tw385", topology="disc", holes="close-all", kept_loops=3, largest_hole=2.5,
-    largest_hole_length=2.5, viewpoint=[10, 10, 100], facing="up", max_edge=9.5, max_edge_ratio=9.5, min_component=10,
-    remove_outliers=False, scatter="drop", denoise=False, flips=False, uncross=False, open_crossings=True, neighbors=12,
-    neighborhood="ball-delaunay", ball_radius=3.5, sheet_filter=False, boundary="two-segments", opening_angle=120.5,
-    cluster_tolerance=0.5, cluster_neighbors=5, domain="square", sides=3, spacing="uniform", weights="uniform",
-    solver="bicgstab-ilut", ordering="metis", tolerance=1e-6, max_iterations=7, ilut_fill=7, ilut_drop=0.5)
 BESIDES = {"normals", "use_input_normals", "sensor_origin", "loop", "strict", "progress"}
 
 
-@pytest.mark.parametrize("name", VALUES)
+@pytest.mark.parametrize("name", OTHER_VALUES)
 def test_option_arrives(terrain_points, name):
     default = pcl_floater.reconstruct(terrain_points, threads=2).report["options"]
-    options = pcl_floater.reconstruct(terrain_points, **{"threads": 2, name: VALUES[name]}).report["options"]
+    options = pcl_floater.reconstruct(terrain_points, **{"threads": 2, name: OTHER_VALUES[name]}).report["options"]
     changed = {other: options[other] for other in options if options[other] != default[other]}
-    assert changed.pop(name) == VALUES[name] and (name == "method" or not changed)
+    assert changed.pop(name) == OTHER_VALUES[name] and (name == "method" or not changed)
 
 
 def test_what_is_no_option_arrives(terrain_points):
-    assert set(inspect.signature(pcl_floater.reconstruct).parameters) == {"points", *VALUES, *BESIDES}
+    assert set(inspect.signature(pcl_floater.reconstruct).parameters) == {"points", *OTHER_VALUES, *BESIDES}
     rim = [*range(0, 30), *range(59, 899, 30), *range(899, 869, -1), *range(840, 0, -30)]
     assert set(pcl_floater.reconstruct(terrain_points, loop=np.array(rim)).loop) == set(rim)
     down = np.tile([[0.5, 0.0, -1.0]], (len(terrain_points), 1))

@@ -7,8 +7,8 @@ import random
 import shutil
 import struct
 
-import numpy as np
 from conftest import GENERATE, OK, TOOL, Tool
+from files import ply_bytes, sample_of
 
 DISTRIBUTED, MPIRUN = (os.environ.get("PCL_FLOATER_" + name, "") for name in ("DISTRIBUTED", "MPIRUN"))
 IS_LONG = "PCL_FLOATER_LONG" in os.environ  # all pairs of processes and blocks, all clouds, 20 moments
@@ -22,9 +22,7 @@ def mpirun(processes, *more):
 
 
 def ply(points):
-    """Binary PLY of x, y and z."""
-    return (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
-            "property float z\nend_header\n").encode() + np.array(points, "<f4").tobytes()
+    return ply_bytes(sample_of(points), is_plain=True)
 
 
 def terrain_points(count, seed=1):

@@ -9,6 +9,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+# A value of each option that is not its default, as the report has it. That it arrives, by the tool or by Python, is
+# enough there: what it does is tested in the core.
+OTHER_VALUES = dict(
+    threads=1, method="tw385", topology="disc", holes="close-all", kept_loops=3, largest_hole=2.5,
+    largest_hole_length=2.5, viewpoint=[10, 10, 100], facing="up", max_edge=9.5, max_edge_ratio=9.5, min_component=10,
+    remove_outliers=False, scatter="drop", denoise=False, flips=False, uncross=False, open_crossings=True, neighbors=12,
+    neighborhood="ball-delaunay", ball_radius=3.5, sheet_filter=False, boundary="two-segments", opening_angle=120.5,
+    cluster_tolerance=0.5, cluster_neighbors=5, domain="square", sides=3, spacing="uniform", weights="uniform",
+    solver="bicgstab-ilut", ordering="metis", tolerance=1e-6, max_iterations=7, ilut_fill=7, ilut_drop=0.5)
+
 
 def make_sample(is_double=False, side=12):
     """Points of a wavy square in random order. In single precision every coordinate is a float; in double precision

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from conftest import OK, OUTPUT, USAGE
 from distributed import DISTRIBUTED, IS_LONG, STEPS, WORK, Work, flipped, mpirun, ply, terrain_points
+from files import pcd_bytes, sample_of
 
 PAIRS = [(1, 5), (2, 5), (3, 64), (7, 5), (1, 64), (2, 64), (3, 5), (7, 64)]
 
@@ -32,9 +33,7 @@ def write_scan(work):
     y, x = (np.mgrid[:70, :90].reshape(2, -1) - [[35], [45]]) / 80
     near, wall = 0.09 - 2 * (x * x + y * y), 3 + 0.2 * np.sin(5 * x) * np.cos(4 * y)
     z = np.where(x * x + y * y < 0.04, 1.5 - np.sqrt(np.maximum(near, 0)), wall)
-    header = ("# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 90\n"
-              "HEIGHT 70\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 6300\nDATA binary\n")
-    return work.write("scan.pcd", header.encode() + np.stack([x * z, y * z, z], -1).astype("<f4").tobytes())
+    return work.write("scan.pcd", pcd_bytes(sample_of(np.stack([x * z, y * z, z], -1))))
 
 
 def test_surfaces(work):

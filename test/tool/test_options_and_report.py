@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Options are understood or refused, and reach the run. The report, the summary as JSON, and what --strict does not
 allow."""
-import json
-
 import numpy as np
 import pytest
 from conftest import INPUT, RECONSTRUCTION, REFUSED, USAGE
-from files import json_of, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of
+from files import OTHER_VALUES, json_of, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of
 
 NAN = float("nan")
 
@@ -98,25 +96,15 @@ def test_same_file_twice(cloud):
 
 def test_options_reach_the_run_and_the_report(cloud):
     defaults = cloud.report()["options"]
-    for option, value in (words.split() for words in (
-            "topology disc", "holes close-all", "kept-loops 0", "largest-hole 5.5", "largest-hole-length 0.25",
-            "max-edge 9", "max-edge-ratio 9", "min-component 9", "remove-outliers off", "scatter drop", "denoise off",
-            "viewpoint none", "viewpoint 0,-1,20.5", "neighbors 24", "neighborhood ball", "ball-radius 3",
-            "sheet-filter off", "boundary two-segments", "opening-angle 150.5", "cluster-tolerance 0.2",
-            "cluster-neighbors 12", "domain polygon", "sides 5", "spacing centripetal", "weights uniform",
-            "solver bicgstab-ilut", "tolerance 1e-10", "max-iterations 100", "ilut-fill 20", "ilut-drop 0.001",
-            "ordering metis", "facing outwards", "facing up", "flips off", "uncross off", "open-crossings on",
-            "threads 2")):
-        key = option.replace("-", "_")
-        try:
-            expected = json.loads(f"[{value}]" if "," in value else value)
-        except ValueError:
-            expected = {"on": True, "off": False}.get(value, value)
-        assert defaults[key] != expected
+    for name, value in [*OTHER_VALUES.items(), ("viewpoint", "none"), ("facing", "outwards")]:
+        if name == "method":
+            continue  # it sets others, see below
+        assert defaults[name] != value
+        text = ("off", "on")[value] if isinstance(value, bool) else str(value).strip("[]").replace(" ", "")
         # The report is written even if the option makes the run fail on this cloud.
         cloud.path("out.json").unlink()
-        cloud.run(f"in.pcd out.ply --report out.json --{option} {value}")
-        assert json_of(cloud.text("out.json"))["options"] == {**defaults, key: expected}
+        cloud.run(f"in.pcd out.ply --report out.json --{name.replace('_', '-')} {text}")
+        assert json_of(cloud.text("out.json"))["options"] == {**defaults, name: value}
     assert cloud.report("--flips off")["statistics"]["flips"] == 0
 
 

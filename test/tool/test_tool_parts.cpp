@@ -105,22 +105,6 @@ TEST_F (ScratchArrays, SizesBeyondAllMemoryAreRefused)
   EXPECT_EQ (scratchUse ().bytes, 0U);
 }
 
-TEST_F (ScratchArrays, FilesHaveNoNamesAndGoWithTheirArrays)
-{
-  {
-    const std::vector<char> small (LARGE_ARRAY / 2, 'a');
-    EXPECT_EQ (scratchUse ().bytes, 0U);
-    const std::vector<char> large (3 * LARGE_ARRAY + 1, 'b');
-    EXPECT_GT (scratchUse ().bytes, 3 * LARGE_ARRAY);
-    std::vector<char> other (5 * LARGE_ARRAY, 'c');
-    EXPECT_GT (scratchUse ().bytes, 8 * LARGE_ARRAY);
-    std::vector<char> ().swap (other);
-    EXPECT_LT (scratchUse ().bytes, 4 * LARGE_ARRAY);
-    EXPECT_TRUE (std::filesystem::is_empty (folder ()));
-  }
-  EXPECT_EQ (scratchUse ().bytes, 0U);
-}
-
 /// In every round each thread adds one to all its numbers, while pages are dropped continuously and
 /// other arrays are made and freed.
 TEST_F (ScratchArrays, NothingIsLostWhileThreadsWrite)
