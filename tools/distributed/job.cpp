@@ -148,9 +148,8 @@ planStep (const Job& job, FolderStore& store)
     nlohmann::json (job.arguments).dump ();
   }
   catch (const nlohmann::json::exception&) {
-    throw UsageError (
-        "an argument is no UTF-8, which the manifest of the work folder is; use other "
-        "names of files and folders");
+    throw UsageError ("an argument is no UTF-8, which the manifest of the work folder is; use "
+                      "other names of files and folders");
   }
   for (const std::filesystem::path& input : job.inputs)
     plan.inputs.push_back (describeInput (input));

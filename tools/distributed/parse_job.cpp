@@ -43,9 +43,8 @@ addSteps (CLI::App& app, Job& job)
 {
   const std::string group = "Steps";
   addPath (app, "--work", job.work,
-           "folder for what is known between the steps; it is made if it "
-           "does not exist",
-           group, "FOLDER");
+           "folder for what is known between the steps; it is made if it does not exist", group,
+           "FOLDER");
   addNumber (app, "--blocks", job.blocks,
              "blocks into which the points are cut; 0: of half a million points each; the result "
              "is the same",
@@ -85,10 +84,10 @@ addGeneral (CLI::App& app, Job& job)
   addNumber (app, "-j,--threads", job.line.options.threads,
              "threads of each process for its blocks, 0: one for each core; the result is the same",
              general);
-  addNumber (app, "--join-threads", job.join_threads,
-             "threads of the steps of the whole cloud, 0: one for each core; the result is the "
-             "same",
-             general);
+  addNumber (
+      app, "--join-threads", job.join_threads,
+      "threads of the steps of the whole cloud, 0: one for each core; the result is the same",
+      general);
   addLimitAndCoordinates (app, job.line);
   app.add_flag ("-q,--quiet", job.line.quiet, "print errors only")->group (general);
 }

@@ -13,13 +13,12 @@ int
 main (int argc, char** argv)
 {
   using namespace pcl::floater;
-  CLI::App app{
-      "Writes points on a known surface, in random order, as a sample cloud (.pcd or .ply, "
-      "binary).\n"
-      "The unit of length is the mean spacing of the points: one point per unit of area.\n"
-      "Exit codes: 0 success, 1 usage, 3 there is not enough memory, 4 the output cannot be "
-      "written.",
-      "pcl_floater_generate"};
+  CLI::App app{"Writes points on a known surface, in random order, as a sample cloud (.pcd or "
+               ".ply, binary).\n"
+               "The unit of length is the mean spacing of the points: one point per unit of area.\n"
+               "Exit codes: 0 success, 1 usage, 3 there is not enough memory, 4 the output cannot "
+               "be written.",
+               "pcl_floater_generate"};
   app.option_defaults ()->always_capture_default ();
   constexpr std::size_t MOST_POINTS = 1000000000;
   std::string name, path;

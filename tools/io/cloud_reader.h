@@ -70,8 +70,7 @@ constexpr const char* CLOUD_EXTENSIONS =
 
 /// What to do with a compressed LAS file.
 constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read; decompress it: "
-                                   "laszip -i a.laz -o a.las, or pdal "
-                                   "translate a.laz a.las";
+                                   "laszip -i a.laz -o a.las, or pdal translate a.laz a.las";
 
 /// \throws ReadError if the extension is that of a known format that is not read, with the command
 /// that converts it

@@ -80,8 +80,7 @@ readHeader (std::string_view bytes)
   if (header.points_at < header_size || header.points_at > bytes.size ())
     throw ReadError ("its header tells that the points begin at byte " +
                      std::to_string (header.points_at) +
-                     ", where there are none; the file is "
-                     "truncated or its header is wrong");
+                     ", where there are none; the file is truncated or its header is wrong");
   const unsigned format = numberAt<std::uint8_t> (bytes, FORMAT_AT);
   constexpr unsigned COMPRESSED = 0xC0; // the bits that compressors set
   if ((format & COMPRESSED) != 0)
@@ -105,8 +104,8 @@ readHeader (std::string_view bytes)
     header.offsets[axis] = numberAt<double> (bytes, OFFSETS_AT + axis * sizeof (double));
     if (!std::isfinite (header.scales[axis]) || header.scales[axis] == 0.0 ||
         !std::isfinite (header.offsets[axis]))
-      throw ReadError ("the scale or the offset of its coordinates is no number of use; its header "
-                       "is wrong");
+      throw ReadError (
+          "the scale or the offset of its coordinates is no number of use; its header is wrong");
   }
   return header;
 }

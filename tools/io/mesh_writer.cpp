@@ -313,9 +313,8 @@ writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangle
   else
     write (cloud, triangles);
   if (single != nullptr && !cloud.single_precision)
-    losses.push_back (std::string (single) +
-                      " holds single precision only: the coordinates were rounded; write .vtk or "
-                      ".ply to keep them");
+    losses.push_back (std::string (single) + " holds single precision only: the coordinates were "
+                                             "rounded; write .vtk or .ply to keep them");
   file.close ();
   return losses;
 }

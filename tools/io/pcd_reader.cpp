@@ -71,8 +71,8 @@ countPoints (const TextScanner& scanner, PcdHeader& lines)
     scanner.fail ("the header has neither POINTS nor WIDTH");
   if (lines.points_told && lines.width.value_or (1) * lines.height.value_or (1) == 0 &&
       *lines.points_told > 0) {
-    lines.warnings.emplace_back ("WIDTH or HEIGHT of the PCD header is 0: its POINTS were taken "
-                                 "as a list");
+    lines.warnings.emplace_back (
+        "WIDTH or HEIGHT of the PCD header is 0: its POINTS were taken as a list");
     lines.width = lines.points_told;
     lines.height = 1;
   }

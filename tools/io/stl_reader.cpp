@@ -105,8 +105,8 @@ parseStl (const FileBytes& file, const ReadOptions& /*options*/)
   if (is_solid && !fits_binary)
     return parseText (bytes);
   if (!is_long)
-    throw ReadError ("it is too short for a binary STL file, and a text does not begin with "
-                     "'solid'");
+    throw ReadError (
+        "it is too short for a binary STL file, and a text does not begin with 'solid'");
   return parseBinary (bytes);
 }
 

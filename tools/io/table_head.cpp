@@ -122,8 +122,8 @@ refuseHeader (std::string_view line, const ColumnSeparator& separator)
       return;
   if (separator.separator != ' ' || words.size () > 3)
     throw ReadError ("its header " + quoted (line, LONGEST) +
-                     " names no x, y and z: name them there, or "
-                     "choose their columns by number, such as --columns 2,3,4");
+                     " names no x, y and z: name them there, or choose their columns by number, "
+                     "such as --columns 2,3,4");
 }
 
 /// Takes the line for that of the first point: finds how its columns are separated, and which of

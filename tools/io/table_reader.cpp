@@ -95,10 +95,9 @@ public:
         columns_[c].kind = std::min<std::size_t> (first++, OTHER);
     }
     if (!taken.empty ())
-      warnings.push_back ("the columns of the input file have no names: after x, y and z, " +
-                          taken +
-                          " was taken by what they hold; a first line such as x,y,z,red,green,blue "
-                          "names them");
+      warnings.push_back (
+          "the columns of the input file have no names: after x, y and z, " + taken +
+          " was taken by what they hold; a first line such as x,y,z,red,green,blue names them");
   }
 
   std::vector<Field> fields (std::vector<std::string>& warnings) const
@@ -216,9 +215,8 @@ parseTable (const FileBytes& file, bool is_intensity_first,
                         " points, but there are " + std::to_string (points) + "; all were taken");
   if (!head.has_names && table.countsRows ())
     throw ReadError (
-        "its first column counts the points and can hardly be x: name the columns in a "
-        "first line, or choose those of x, y and z by number, such as --columns "
-        "2,3,4 (or 1,2,3)");
+        "its first column counts the points and can hardly be x: name the columns in a first line, "
+        "or choose those of x, y and z by number, such as --columns 2,3,4 (or 1,2,3)");
   if (!head.has_names)
     table.guess (is_intensity_first, warnings);
   std::vector<Field> fields = table.fields (warnings);

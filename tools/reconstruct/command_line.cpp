@@ -81,8 +81,8 @@ checkTextureOptions (const CommandLine& line)
   if (line.texture_size != 0 && line.texture.empty ())
     throw UsageError ("--texture-size is of no use without --texture");
   if (line.texture_coordinates && line.max_memory > 0)
-    throw UsageError ("--max-memory cannot limit the memory of --uv and --texture; leave one of "
-                      "them out");
+    throw UsageError (
+        "--max-memory cannot limit the memory of --uv and --texture; leave one of them out");
 }
 
 void
@@ -95,9 +95,9 @@ checkMemoryLimit (CommandLine& line)
   }
   // The solver allocates the factors of the linear system itself, and they are the larger part.
   if (line.options.topology == Topology::DISC)
-    throw UsageError ("--max-memory cannot limit the memory for the linear system of a disc; use "
-                      "it with --topology surface or auto, and without --loop and "
-                      "--parameterization");
+    throw UsageError (
+        "--max-memory cannot limit the memory for the linear system of a disc; use it with "
+        "--topology surface or auto, and without --loop and --parameterization");
   if (!line.html.empty ())
     throw UsageError ("--max-memory cannot limit the memory of --html; leave one of them out");
   if (line.scratch.empty ())
@@ -136,8 +136,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
     return done;
   if (command_line.compute_normals && command_line.meshFormat () == MeshFormat::STL)
     command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
-                                        "triangles only, write .ply, .vtk or "
-                                        ".obj");
+                                        "triangles only, write .ply, .vtk or .obj");
   if (command_line.options.disc.as_published) {
     choosePublished (command_line.options.disc, app.count ("--boundary") > 0,
                      app.count ("--ordering") > 0);
@@ -205,9 +204,8 @@ checkPaths (const CommandLine& line)
   const std::filesystem::path materials = line.materials ();
   for (const std::filesystem::path* path : {&materials, &line.texture})
     if (path->filename ().string ().find_first_of ("\n\r") != std::string::npos)
-      throw UsageError (
-          "the name of the file of materials or of the texture has a line break in it, "
-          "which files in OBJ cannot hold; choose another one");
+      throw UsageError ("the name of the file of materials or of the texture has a line break in "
+                        "it, which files in OBJ cannot hold; choose another one");
   // The first two are inputs.
   const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
       {{"INPUT", line.input},

@@ -110,11 +110,10 @@ writesSingle (const CommandLine& line, const Triangles& triangles, Cloud& cloud)
   }
   if (are_floats && countMergedInSinglePrecision (cloud, triangles) == 0)
     return true;
-  cloud.warnings.emplace_back ("the coordinates are written as doubles, since 32-bit numbers do "
-                               "not reach so far, or would put "
-                               "corners of a triangle together; PCL reads doubles of a .ply file "
-                               "into its points as 0: use --precision single or "
-                               "another format for PCL");
+  cloud.warnings.emplace_back (
+      "the coordinates are written as doubles, since 32-bit numbers do not reach so far, or would "
+      "put corners of a triangle together; PCL reads doubles of a .ply file into its points as 0: "
+      "use --precision single or another format for PCL");
   return false;
 }
 
@@ -251,10 +250,9 @@ run (CommandLine line)
   Cloud cloud = readNamed (
       line.input, [&] { return readCloud (line.input, readOptionsOf (line), line.input_format); });
   if (!line.texture.empty () && !colorFields (cloud)[0])
-    throw UsageError (
-        "--texture: the points of '" + line.input.string () +
-        "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for texture "
-        "coordinates alone");
+    throw UsageError ("--texture: the points of '" + line.input.string () +
+                      "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for "
+                      "texture coordinates alone");
   RunFigures figures;
   Input input = prepareInput (line, cloud, figures);
   figures.read_seconds = secondsSince (start);

@@ -208,9 +208,9 @@ addFiles (CLI::App& app, CommandLine& line)
   addPath (app, "--parameterization", line.parameterization,
            "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc",
            OUTPUT_GROUP);
-  app.add_flag ("--uv", line.texture_coordinates,
-                "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of "
-                ".vtk")
+  app.add_flag (
+         "--uv", line.texture_coordinates,
+         "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk")
       ->group (OUTPUT_GROUP);
   addPath (app, "--texture", line.texture,
            "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
@@ -247,12 +247,12 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
                : "";
   };
   addParsed (app, "--max-memory", parseLimit,
-             "keep the memory in use near this, in bytes; arrays that "
-             "are not in use are kept on disk; not for discs",
+             "keep the memory in use near this, in bytes; arrays that are not in use are kept on "
+             "disk; not for discs",
              "SIZE (no limit)", GENERAL);
   addPath (app, "--scratch", line.scratch,
-           "--max-memory: folder where the arrays are kept; these files have no names and end "
-           "with the run",
+           "--max-memory: folder where the arrays are kept; these files have no names and end with "
+           "the run",
            GENERAL, "FOLDER (that of OUTPUT)");
   const auto parseShift = [&line] (const std::string& word) {
     line.auto_shift = word == "auto";
@@ -261,11 +261,10 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
                ? ""
                : "is neither auto nor three numbers, such as 500000,5500000,0";
   };
-  addParsed (
-      app, "--shift", parseShift,
-      "origin to subtract from all coordinates, where they are too far from zero for 32 bits; "
-      "auto: the rounded centre of the points, if they are so far",
-      "X,Y,Z or auto (none)", GENERAL);
+  addParsed (app, "--shift", parseShift,
+             "origin to subtract from all coordinates, where they are too far from zero for 32 "
+             "bits; auto: the rounded centre of the points, if they are so far",
+             "X,Y,Z or auto (none)", GENERAL);
   const auto parseColumns = [&line] (const std::string& word) {
     const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
     for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
@@ -276,11 +275,10 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
                ? "is no three different numbers of columns, such as 2,3,4"
                : "";
   };
-  addParsed (
-      app, "--columns", parseColumns,
-      "columns of x, y and z in text with a point in each line, from 1; by default those that the "
-      "first line names, or the first three",
-      "X,Y,Z", GENERAL);
+  addParsed (app, "--columns", parseColumns,
+             "columns of x, y and z in text with a point in each line, from 1; by default those "
+             "that the first line names, or the first three",
+             "X,Y,Z", GENERAL);
   const auto parseClasses = [&line] (const std::string& word) {
     std::stringstream words (word);
     for (std::string one; std::getline (words, one, ',');)
@@ -292,11 +290,10 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
              "classes of an airborne scan that are taken, such as 2,6 for ground and buildings; by "
              "default all but those of noise, 7 and 18. Withheld points are never taken",
              "N,N,...", GENERAL);
-  addChoice (
-      app, "--precision", line.precision, PRECISION_CHOICES,
-      "precision of coordinates in outputs; auto: single, with --shift auto for doubles. PCL reads "
-      "doubles of a .ply as 0",
-      GENERAL);
+  addChoice (app, "--precision", line.precision, PRECISION_CHOICES,
+             "precision of coordinates in outputs; auto: single, with --shift auto for doubles. "
+             "PCL reads doubles of a .ply as 0",
+             GENERAL);
 }
 
 void

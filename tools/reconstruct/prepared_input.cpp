@@ -69,8 +69,8 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
     throw UsageError (
         std::string (line.use_input_normals ? "--use-input-normals on" : "--facing normals") +
         ": the points of " + inputName (line.input) +
-        " have no normals (float fields normal_x, normal_y, normal_z, or nx, ny, "
-        "nz); leave the option out, or add them");
+        " have no normals (float fields normal_x, normal_y, normal_z, or nx, ny, nz); leave the "
+        "option out, or add them");
   std::vector<Eigen::Vector3f> normals (cloud.size ());
   for (std::size_t p = 0; p < normals.size (); ++p)
     normals[p] = vectorOf (fields, cloud.row (p)).cast<float> ();

@@ -8,9 +8,8 @@
 
 namespace pcl::floater {
 /// What is wrong with degrees beside metres.
-constexpr const char* DEGREES =
-    "x and y seem to be degrees of longitude and latitude, and z metres: "
-    "distances make no sense so";
+constexpr const char* DEGREES = "x and y seem to be degrees of longitude and latitude, and z "
+                                "metres: distances make no sense so";
 
 /// \param kept_per_point see leastMemory
 /// \throws UsageError if so many points cannot be kept below the limit

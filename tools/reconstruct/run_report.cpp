@@ -169,12 +169,11 @@ printUnsure (std::FILE* to, const Report& report)
   const std::size_t loops = begin ("of ", report.loop_decisions.size (), "boundary loop");
   for (std::size_t i = 0; i < loops; ++i) {
     const LoopDecision& loop = report.loop_decisions[i];
-    std::fprintf (
-        to,
-        "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with a "
-        "probability of %.0f %%\n",
-        loop.points, loop.width_spacings, loop.at, loop.stays_open ? "stays open" : "filled",
-        100.0 * loop.probability);
+    std::fprintf (to,
+                  "           of %zu points, %.3g spacings wide, at point %u: %s, a boundary with "
+                  "a probability of %.0f %%\n",
+                  loop.points, loop.width_spacings, loop.at,
+                  loop.stays_open ? "stays open" : "filled", 100.0 * loop.probability);
   }
   const std::size_t parts =
       begin ("which side is the front of ", report.facing_decisions.size (), "part");
@@ -244,16 +243,15 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
   if (run.shift != std::array<double, 3>{})
     std::fprintf (to, "shift      %.17g %.17g %.17g, subtracted from all coordinates%s\n",
                   run.shift[0], run.shift[1], run.shift[2],
-                  line.auto_shift ? ": 32-bit numbers are too coarse for them; --precision double "
-                                    "keeps them"
-                                  : "");
+                  line.auto_shift
+                      ? ": 32-bit numbers are too coarse for them; --precision double keeps them"
+                      : "");
   if (report.is_view)
-    std::fprintf (to,
-                  "viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left "
-                  "out\n",
-                  report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
-                  report.viewpoint[1], report.viewpoint[2],
-                  counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
+    std::fprintf (
+        to, "viewpoint  %s %.6g %.6g %.6g; %s across depth steps and %zu in gaps were left out\n",
+        report.is_far_view ? "far away, rays along" : "at", report.viewpoint[0],
+        report.viewpoint[1], report.viewpoint[2],
+        counted (statistics.view_steps, "triangle").c_str (), statistics.view_gaps);
   if (statistics.stacked_points > 0)
     std::fprintf (to, "stacks     %s on other points, %.2g spacings from them (largest %.2g)\n",
                   counted (statistics.stacked_points, "point").c_str (), statistics.stack_height,
@@ -261,8 +259,7 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
   if (report.denoised)
     std::fprintf (to,
                   "noise      %.2g spacings (90 %% below %.2g, largest %.2g): to connect them, %zu "
-                  "points were "
-                  "projected on local planes\n",
+                  "points were projected on local planes\n",
                   statistics.noise, statistics.noise_quantile_90, statistics.largest_noise,
                   statistics.projected_points);
   std::fprintf (to,
