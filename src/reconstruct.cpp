@@ -49,10 +49,14 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   const NeighborSettings settings{options.neighbors, searcher};
   std::optional<KdTree> tree; // searched again for the stars of a surface
   CsrLists neighbors = known != nullptr
-                           ? CsrLists{}
+                           ? known->neighborsOfStacks ()
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
-  if (known == nullptr && !as_disc)
+  if (!as_disc && neighbors.rows () > 0)
     reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
+  if (known != nullptr) { // the others will be those of its planes
+    neighbors = {};
+    tree.reset ();
+  }
   const std::vector<Index> outliers =
       known != nullptr ? known->outliers () : outliersOf (points, neighbors, request);
   if (!outliers.empty ()) {

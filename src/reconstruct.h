@@ -22,10 +22,13 @@ public:
   /// The points of takePoints (), which also fills the report.
   virtual Points points (Report& report) = 0;
 
-  /// Points that lie off any surface, ascending.
+  /// The neighbours of these points, if some lie on others, else none.
+  virtual CsrLists neighborsOfStacks () = 0;
+
+  /// Points of the net that lie off any surface, ascending.
   virtual std::vector<Index> outliers () = 0;
 
-  /// Planes of all points without outliers, without tree and neighbours beside lines.
+  /// Planes of the net without outliers, without tree and neighbours beside lines.
   virtual LocalPlanes planes () = 0;
 
   /// See makeStars.

@@ -40,6 +40,9 @@ def test_surfaces(work):
     numbers = random.Random(4)
     bush = [tuple(20.0 + 10.0 * numbers.random() for _ in range(3)) for _ in range(2000)]
     rows = [(0.1 * i + 0.02 * numbers.random(), 1.5 * j, 0.3 * math.sin(0.1 * i)) for i in range(400) for j in range(15)]
+    # Overlapping strips, and clusters that are small only without what lies on others.
+    strips = [(x, y + 0.02 * numbers.random(), z + 0.2 * numbers.random()) for x, y, z in 2 * terrain_points(2000)]
+    strips += [(300 * i + 0.1 * numbers.random(), 300, 0.1 * numbers.random()) for i in (1, 2, 3) for _ in range(9)]
     few = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0.1), (2, 1, 0)]
     height_field = ("height-field", "--points", 9000)
     for cloud, pairs, *options in [
@@ -54,6 +57,7 @@ def test_surfaces(work):
             (work.terrain(9000), [(2, 5)], "--remove-outliers", "off", "-k", "6", "--holes", "close-all", "--normals"),
             (work.write("bush.ply", ply(terrain_points(6000) + bush)), [(2, 5)], "--scatter", "drop"),
             (work.write("rows.ply", ply(rows)), [(2, 5)]),
+            (work.write("strips.ply", ply(strips)), [(2, 2), (2, 16)]),
             (write_scan(work), [(2, 5)])]:
         expected = work.reference(cloud, *options)
         for processes, blocks in PAIRS if IS_LONG else pairs:

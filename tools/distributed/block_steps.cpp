@@ -5,6 +5,7 @@
 #include "cloud_geometry.h"
 #include "options/check_options.h"
 #include "points/neighbors.h"
+#include "points/net.h"
 #include "points/outliers.h"
 #include "stored_cloud.h"
 
@@ -89,13 +90,6 @@ ofOwn (const BlockSearch& block, const std::vector<Value>& values)
 
 } // namespace
 
-StepContext::StepContext (Store& files, const Plan& of, const CommandLine& line,
-                          const RunContext& context)
-    : store (files), plan (of), options (effectiveOptions (line.options)),
-      limits (effectiveLimits ({}, line.options)), run (context)
-{
-}
-
 void
 neighborsStep (const StepContext& context, std::size_t block)
 {
@@ -112,31 +106,31 @@ int
 outliersStep (const Job& job, FolderStore& store, const Plan& plan)
 {
   const StepContext context (store, plan, job.line, job.join_threads);
-  std::vector<Index> outliers;
-  if (context.options.remove_outliers) {
-    std::vector<Index> gross_outliers;
-    Points points = readPoints (context.store, POINTS, context.plan, gross_outliers);
-    const CsrLists neighbors =
-        StoredCloud (context, {}).nearest (pointsFrom (0, static_cast<Index> (points.size ())));
+  std::vector<Index> gross_outliers, outliers;
+  Points points = readPoints (store, plan, gross_outliers);
+  CsrLists neighbors = StoredCloud (context, {}).nearestOfAll ();
+  chooseNet (points, neighbors, {context.options.neighbors}, context.limits.net, context.run,
+             nullptr);
+  const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
+  if (context.options.remove_outliers)
     outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
-    if (!outliers.empty ()) {
-      removePoints (points, outliers);
-      writePoints (context.store, POINTS_LEFT, context.plan.id, points, gross_outliers);
-    }
-  }
-  store.put (OUTLIERS, {{"outliers", outliers}}, plan.id);
+  if (!outliers.empty ())
+    removePoints (points, outliers);
+  if (!are_stacked.empty () || !outliers.empty ())
+    writePoints (store, POINTS_LEFT, plan.id, points, gross_outliers);
+  store.put (OUTLIERS, {{"outliers", outliers}, {"are_stacked", are_stacked}}, plan.id);
   return EXIT_OK;
 }
 
 void
 planesStep (const StepContext& context, std::size_t block)
 {
-  const std::vector<Index> outliers = readOutliers (context);
-  StoredCloud cloud (context, outliers);
+  const LeftOut left_out = readLeftOut (context);
+  StoredCloud cloud (context, left_out);
   if (!cloud.hasPoints (block))
     return put (context, "planes", block);
   CsrLists nearest;
-  if (outliers.empty ())
+  if (left_out.isNothing ())
     nearest = cloud.nearest (cloud.own (block));
   else {
     BlockSearch search (cloud.cutter (), block, HALO);
@@ -154,23 +148,19 @@ planesStep (const StepContext& context, std::size_t block)
                              settings, context.run, context.limits.planes);
   } while (search.widen ());
   const CsrLists beside = ofOwn (search, planes.beside.neighbors);
-  const std::vector<float> beside_reach = ofOwn (search, planes.beside.reach),
-                           spacing = ofOwn (search, planes.spacing);
-  const std::vector<Eigen::Vector3f> normals = ofOwn (search, planes.normals);
-  NamedArrays arrays{{"beside", beside.ids},
-                     {"beside.offsets", beside.offsets},
-                     {"beside_reach", beside_reach},
-                     {"spacing", spacing},
-                     {"normals", normals}};
-  if (!outliers.empty ())
-    arrays.emplace_back ("ids", nearest.ids);
-  put (context, "planes", block, arrays);
+  put (context, "planes", block,
+       {{"beside", beside.ids},
+        {"beside.offsets", beside.offsets},
+        {"beside_reach", ofOwn (search, planes.beside.reach)},
+        {"spacing", ofOwn (search, planes.spacing)},
+        {"normals", ofOwn (search, planes.normals)},
+        {"ids", left_out.isNothing () ? std::vector<Index> () : nearest.ids}});
 }
 
 void
 starsStep (const StepContext& context, std::size_t block)
 {
-  StoredCloud cloud (context, readOutliers (context));
+  StoredCloud cloud (context, readLeftOut (context));
   if (!cloud.hasPoints (block))
     return put (context, "stars", block);
   const StarSettings settings = starSettings ({context.options, context.limits, context.run});
@@ -193,25 +183,14 @@ starsStep (const StepContext& context, std::size_t block)
                       Rows::range (search.ownFirst (), search.ownLast ()), settings, context.run);
   } while (search.widen ());
   const CsrLists stars = ofOwn (search, made.neighbors), far = ofOwn (search, made.far_neighbors);
-  const std::vector<std::uint8_t> open = ofOwn (search, made.open);
-  const std::vector<Eigen::Vector3f> normals = ofOwn (search, made.normals);
-  const std::vector<float> reach = ofOwn (search, made.reach);
   put (context, "stars", block,
        {{"stars", stars.ids},
         {"stars.offsets", stars.offsets},
         {"far", far.ids},
         {"far.offsets", far.offsets},
-        {"open", open},
-        {"normals", normals},
-        {"reach", reach}});
-}
-
-const Step*
-findStep (const std::string& name)
-{
-  const auto* const step = std::find_if (
-      STEPS.begin (), STEPS.end (), [&name] (const Step& known) { return name == known.name; });
-  return step == STEPS.end () ? nullptr : step;
+        {"open", ofOwn (search, made.open)},
+        {"normals", ofOwn (search, made.normals)},
+        {"reach", ofOwn (search, made.reach)}});
 }
 
 } // namespace pcl::floater

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/run_context.h"
+#include "options/check_options.h"
 #include "options/stage_limits.h"
 #include "points/points.h"
 #include "store.h"
@@ -40,7 +41,11 @@ struct Job
 struct StepContext
 {
   /// \param store, plan must outlive this
-  StepContext (Store& files, const Plan& of, const CommandLine& line, const RunContext& context);
+  StepContext (Store& files, const Plan& of, const CommandLine& line, const RunContext& context)
+      : store (files), plan (of), options (effectiveOptions (line.options)),
+        limits (effectiveLimits ({}, line.options)), run (context)
+  {
+  }
 
   Store& store;
   const Plan& plan;
@@ -82,16 +87,6 @@ inline constexpr std::array<Step, 7> STEPS{{{"plan", nullptr, nullptr, MANIFEST}
                                             {"join", nullptr, joinStep, TRIANGLES},
                                             {"write", nullptr, writeStep, nullptr}}};
 
-/// The step of this name; nullptr if there is none.
-const Step*
-findStep (const std::string& name);
-
-/// Parses the command line. Prints the help or the version if asked for.
-/// \return the exit code if there is nothing else to do
-/// \throws UsageError
-std::optional<int>
-parseJob (const std::vector<std::string>& arguments, Job& job);
-
 /// Makes the work folder, and checks that all outputs can be written.
 /// \throws WriteError
 void
@@ -102,29 +97,15 @@ prepareFolders (const Job& job);
 int
 planStep (const Job& job, FolderStore& store);
 
+/// Compares a plan with the parameters of the job and with all bytes of its files.
+/// \throws WorkError if they are others
+void
+requirePlan (const Job& job, const FolderStore& store, const Plan& plan);
+
 /// Reads the manifest. Compares it with the parameters of the job and with all bytes of its files, but
 /// for a step other than `join` that has all from the manifest.
 /// \throws WorkError if they are others
 Plan
 readPlan (const Job& job, FolderStore& store);
-
-/// The manifest, in the folder of the tiles. It is written last.
-constexpr const char* TILES = "tiles.json";
-
-/// Writes the tiles and then the manifest. Of several files, each has a tile, which owns its points;
-/// of one file, each block. A repeated point belongs to the tile of the one that stands for it then,
-/// and a gross outlier, which is in no block, to the first tile. A triangle goes to the tile that
-/// owns the one of its corners with the smallest number. A tile has its own vertices, by their numbers, and then those
-/// that its triangles have at the border, by the tile that owns them and their numbers. The
-/// manifest of an older run is removed first, and older tiles of higher numbers too.
-/// O(n log n), 16 bytes per vertex beside mesh and owners, and the largest tile twice.
-/// \param folder is made if it does not exist
-/// \param cloud of all files, without the points that are not finite
-/// \param firsts see readClouds
-/// \return losses of the format, one sentence each
-/// \throws WriteError, WorkError
-std::vector<std::string>
-writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Triangles& triangles,
-            const std::vector<std::size_t>& firsts, FolderStore& store, const Plan& plan);
 
 } // namespace pcl::floater

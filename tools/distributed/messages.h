@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <exception>
 #include <future>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -202,7 +201,6 @@ public:
         finished += serve ();
       }
     });
-    sources_.clear (); // a file that is removed takes room until it is closed
     own.get ();
   }
 
@@ -253,16 +251,10 @@ private:
 
   Message answerTo (const Message& wanted)
   {
-    constexpr std::size_t MOST_OPEN = 256; // a program may have 1024 files open, mostly
     try {
-      auto known = sources_.find (wanted.text);
-      if (known == sources_.end ()) {
-        if (sources_.size () >= MOST_OPEN)
-          sources_.clear ();
-        known = sources_.emplace (wanted.text, folder_.open (wanted.text)).first;
-      }
-      Message answer{Topic::READ, known->second.size, 0, std::string (wanted.count, '\0')};
-      known->second.read (wanted.number, wanted.count, answer.text.data ());
+      const ByteSource source = folder_.open (wanted.text);
+      Message answer{Topic::READ, source.size, 0, std::string (wanted.count, '\0')};
+      source.read (wanted.number, wanted.count, answer.text.data ());
       return answer;
     }
     catch (const WorkError&) { // of size 0 or too short, which the other process refuses
@@ -273,7 +265,6 @@ private:
   Processes& processes_;
   FolderStore& folder_;
   std::set<int> idle_;
-  std::map<std::string, ByteSource> sources_;
   int waits_ = 0; // since the last message
 };
 

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "store.h"
+#include "job.h"
 
+#include "input/input.h"
+#include "options/check_options.h"
 #include "prepared_input.h"
+#include "report_json.h"
+#include "stored_cloud.h"
 
 #include <nlohmann/json.hpp>
 #include <xxhash.h>
@@ -34,17 +38,19 @@ textOf (const ManifestJson& json, int indent = -1)
   return json.dump (indent, ' ', false, ManifestJson::error_handler_t::replace);
 }
 
-} // namespace
-
-InputFile
-describeInput (const std::filesystem::path& path)
+std::vector<InputFile>
+describeInputs (const Job& job)
 {
-  return readNamed (path, [&path] {
-    const FileBytes file (path);
-    return InputFile{path.string (), file.view ().size (), hash (file.view ())};
-  });
+  std::vector<InputFile> inputs;
+  for (const std::filesystem::path& path : job.inputs)
+    readNamed (path, [&] {
+      const FileBytes file (path);
+      inputs.push_back ({path.string (), file.view ().size (), hash (file.view ())});
+    });
+  return inputs;
 }
 
+// Identifies a plan: the same for the same files, parameters and arguments of the one that made it.
 std::uint64_t
 planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
         const std::vector<std::string>& arguments)
@@ -64,6 +70,29 @@ manifestText (const Plan& plan)
   json["checksum"] = hash (textOf (json));
   return textOf (json, 2) + "\n";
 }
+
+// Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
+// points: below, more time goes to pages that come back than to all else.
+constexpr double KEPT_BY_PLAN = 9.0;
+
+// What decides the result, as text.
+std::string
+parametersText (const Job& job)
+{
+  Options options = job.line.options;
+  options.threads = 0; // the result does not depend on it
+  nlohmann::ordered_json json = optionsJson (options, job.line.use_input_normals);
+  json["shift"] = job.line.auto_shift ? nlohmann::ordered_json ("auto") : nlohmann::ordered_json ();
+  if (job.line.shift)
+    json["shift"] = {job.line.shift->x (), job.line.shift->y (), job.line.shift->z ()};
+  if (job.line.columns[0] > 0)
+    json["columns"] = job.line.columns;
+  if (!job.line.classes.empty ())
+    json["classes"] = job.line.classes;
+  return json.dump ();
+}
+
+} // namespace
 
 Plan
 parseManifest (const std::string& text, const std::string& name)
@@ -151,6 +180,78 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
   }
   merged.warnings.insert (merged.warnings.begin (), warnings.begin (), warnings.end ());
   return merged;
+}
+
+void
+requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
+{
+  if (plan.parameters != parametersText (job))
+    throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
+                     "'; give the same, or name another work folder");
+  if (planId (describeInputs (job), plan.parameters, job.blocks, plan.arguments) != plan.id)
+    throw WorkError ("the input files or the number of blocks are not those of '" +
+                     store.describe (MANIFEST) + "'; give the same, or name another work folder");
+}
+
+int
+planStep (const Job& job, FolderStore& store)
+{
+  Plan plan;
+  try {
+    nlohmann::json (job.arguments).dump ();
+  }
+  catch (const nlohmann::json::exception&) {
+    throw UsageError ("an argument is no UTF-8, which the manifest of the work folder is; use "
+                      "other names of files and folders");
+  }
+  plan.inputs = describeInputs (job);
+  CommandLine line = job.line;
+  std::vector<std::size_t> firsts;
+  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), firsts);
+  Input input = prepareInput (line, cloud, plan.figures, KEPT_BY_PLAN);
+  plan.warnings = cloud.warnings;
+  plan.figures.vertices = static_cast<std::size_t> (
+      std::count_if (input.positions.begin (), input.positions.end (),
+                     [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
+  const RunContext run (job.join_threads);
+  const Options options = effectiveOptions (line.options);
+  const Limits limits = effectiveLimits ({}, line.options);
+  Points points;
+  Report report;
+  const std::array<double, 3> sensor_origin = input.sensor_origin;
+  Problem problem = takePoints (input, {options, limits, run, sensor_origin}, points, report);
+  if (!problem)
+    problem = checkPoints (points);
+  if (problem) {
+    report.status = problem.status;
+    report.message = problem.message;
+    printOutcome (line, report, {});
+    return exitCode (report, {});
+  }
+  plan.arguments = job.arguments;
+  plan.parameters = parametersText (job);
+  plan.points = points.size ();
+  constexpr std::size_t POINTS_OF_BLOCK = std::size_t{1} << 19U; // some 200 MB at a time
+  plan.blocks =
+      job.blocks > 0 ? job.blocks : (points.size () + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK;
+  plan.selected_points = report.statistics.selected_points;
+  plan.scale = points.scale;
+  plan.sensor_origin = sensor_origin;
+  Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
+  plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
+  writePoints (store, POINTS, plan.id, points, report.outliers);
+  writeFile (store.path (MANIFEST), manifestText (plan),
+             true); // last: with it, the step is finished
+  return EXIT_OK;
+}
+
+Plan
+readPlan (const Job& job, FolderStore& store)
+{
+  Plan plan = parseManifest (store.open (MANIFEST).text (), store.describe (MANIFEST));
+  if (!job.is_from_manifest || (job.step != nullptr && job.step->of_all == joinStep))
+    requirePlan (job, store, plan);
+  return plan;
 }
 
 } // namespace pcl::floater

@@ -223,27 +223,7 @@ FolderStore::put (const std::string& name, const std::function<void (const TakeB
 {
   AtomicFile file (path (name), true);
   emit ([&file] (std::string_view bytes) { file.write (bytes); });
-  file.close ();
   file.publish ();
-}
-
-void
-FolderStore::remove (const std::string& name) const
-{
-  std::error_code error; // a file that stays costs room only
-  std::filesystem::remove (path (name), error);
-}
-
-std::string
-blockFile (const char* step, std::size_t block)
-{
-  return std::string (step) + "." + std::to_string (block) + ".bin";
-}
-
-ArrayFile
-openArrays (Store& store, const std::string& name, const Plan& plan)
-{
-  return {store.open (name), store.describe (name), plan.id};
 }
 
 } // namespace pcl::floater

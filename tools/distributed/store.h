@@ -44,18 +44,6 @@ struct Plan
   Eigen::Vector3d shift () const { return Eigen::Vector3d (figures.shift.data ()); }
 };
 
-/// \throws ReadError if a file is missing
-InputFile
-describeInput (const std::filesystem::path& path);
-
-/// Identifies a plan: the same for the same files, parameters and arguments of the one that made it.
-std::uint64_t
-planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
-        const std::vector<std::string>& arguments);
-
-std::string
-manifestText (const Plan& plan);
-
 /// \param name for messages
 /// \throws WorkError if it is no manifest of this version, or damaged
 Plan
@@ -70,7 +58,7 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
             std::vector<std::size_t>& firsts);
 
 /// Version of all files in a work folder. To be raised whenever what is in them changes.
-constexpr std::uint32_t WORK_FORMAT = 12;
+constexpr std::uint32_t WORK_FORMAT = 13;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
 struct WorkError : ToolError
@@ -105,7 +93,8 @@ struct ArrayEntry
   std::uint64_t count, offset;
 };
 
-/// An array to write: numbers, or structs of numbers without gaps, which must outlive this.
+/// An array to write: numbers, or structs of numbers without gaps, which must outlive this. It may be
+/// one that lives for the call of put only.
 struct NamedArray
 {
   template <typename T>
@@ -231,7 +220,11 @@ public:
   void put (const std::string& name, const std::function<void (const TakeBytes&)>& emit) override;
 
   /// Removes a file, if it is there. Others that are open go on to read it.
-  void remove (const std::string& name) const;
+  void remove (const std::string& name) const
+  {
+    std::error_code error; // a file that stays costs room only
+    std::filesystem::remove (path (name), error);
+  }
 
 private:
   std::filesystem::path folder_;
@@ -240,14 +233,20 @@ private:
 constexpr const char* MANIFEST = "manifest.json";
 constexpr const char* POINTS = "points.bin";
 constexpr const char* OUTLIERS = "outliers.bin";
-constexpr const char* POINTS_LEFT = "points_left.bin"; ///< without outliers, if there are any
+constexpr const char* POINTS_LEFT = "points_left.bin"; ///< the net without outliers, if not all
 constexpr const char* TRIANGLES = "mesh.bin";
 
 /// The file of a step for a block, "stars.7.bin".
-std::string
-blockFile (const char* step, std::size_t block);
+inline std::string
+blockFile (const char* step, std::size_t block)
+{
+  return std::string (step) + "." + std::to_string (block) + ".bin";
+}
 
-ArrayFile
-openArrays (Store& store, const std::string& name, const Plan& plan);
+inline ArrayFile
+openArrays (Store& store, const std::string& name, const Plan& plan)
+{
+  return {store.open (name), store.describe (name), plan.id};
+}
 
 } // namespace pcl::floater

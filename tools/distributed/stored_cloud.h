@@ -24,32 +24,90 @@ pointsFrom (Index first, Index last)
   return points;
 }
 
-/// Outliers that the second step has chosen, ascending.
-std::vector<Index>
-readOutliers (const StepContext& context);
+/// What the second step has chosen.
+struct LeftOut
+{
+  bool are_stacked = false;      ///< some points lie on others: a net of them is left
+  std::vector<Index> outliers{}; ///< of the net, ascending
+
+  bool isNothing () const { return !are_stacked && outliers.empty (); }
+};
+
+inline LeftOut
+readLeftOut (const StepContext& context)
+{
+  ArrayFile file = openArrays (context.store, OUTLIERS, context.plan);
+  LeftOut left_out{file.count ("are_stacked") > 0, file.read<Index> ("outliers")};
+  const std::vector<Index>& outliers = left_out.outliers;
+  file.requireBelow (outliers, context.plan.points);
+  file.require (outliers.size () < context.plan.points &&
+                std::is_sorted (outliers.begin (), outliers.end (), std::less_equal<> ()));
+  return left_out;
+}
 
 /// Writes a working set and what is needed to cut it.
 /// \param name POINTS or POINTS_LEFT
 /// \param gross_outliers cloud indices
-void
+inline void
 writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
-             const std::vector<Index>& gross_outliers);
+             const std::vector<Index>& gross_outliers)
+{
+  store.put (name,
+             {{"positions", points.positions},
+              {"cloud_index", points.cloud_index},
+              {"normals", points.normals},
+              {"facing_normals", points.facing_normals},
+              {"buckets", BlockCutter::makeBuckets (points.positions)},
+              {"non_finite", points.non_finite},
+              {"duplicates", points.duplicates},
+              {"gross_outliers", gross_outliers}},
+             plan);
+}
 
-/// Reads it.
+/// Reads the working set of the plan.
 /// \param[out] gross_outliers cloud indices
-Points
-readPoints (Store& store, const std::string& name, const Plan& plan,
-            std::vector<Index>& gross_outliers);
+inline Points
+readPoints (Store& store, const Plan& plan, std::vector<Index>& gross_outliers)
+{
+  ArrayFile file = openArrays (store, POINTS, plan);
+  Points points;
+  points.positions = file.read<Eigen::Vector3d> ("positions");
+  points.cloud_index = file.read<Index> ("cloud_index");
+  points.normals = file.read<Eigen::Vector3f> ("normals");
+  points.facing_normals = file.read<Eigen::Vector3f> ("facing_normals");
+  points.non_finite = file.read<Index> ("non_finite");
+  points.duplicates = file.read<std::array<Index, 2>> ("duplicates");
+  gross_outliers = file.read<Index> ("gross_outliers");
+  for (const std::vector<Index>* list : {&points.cloud_index, &points.non_finite, &gross_outliers})
+    file.requireBelow (*list, plan.cloudSize ());
+  file.requireBelow (points.duplicates, plan.cloudSize ());
+  const std::size_t count = points.positions.size ();
+  file.require (count > 0 && count <= plan.points && points.cloud_index.size () == count);
+  for (const std::vector<Eigen::Vector3f>* normals : {&points.normals, &points.facing_normals})
+    file.require (normals->empty () || normals->size () == count);
+  points.centre = Eigen::Map<const Eigen::Vector3d> (plan.centre.data ());
+  points.scale = plan.scale;
+  return points;
+}
 
-/// The points without outliers, how they are cut, and what the blocks have written about them. Lists
-/// of points are ascending.
+/// The points that are left, how they are cut, and what the blocks have written about them. Lists of
+/// points are ascending.
 class StoredCloud
 {
 public:
   /// \param context must outlive this
-  StoredCloud (const StepContext& context, const std::vector<Index>& outliers);
+  StoredCloud (const StepContext& context, const LeftOut& left_out)
+      : context_ (context), neighbors_step_ (left_out.isNothing () ? "neighbors" : "planes"),
+        file_ (
+            openArrays (context.store, left_out.isNothing () ? POINTS : POINTS_LEFT, context.plan)),
+        points_ (file_.count ("positions")),
+        cutter_{points_, file_.read<Box> ("buckets"), context.plan.blocks,
+                [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
+                  file_.append ("positions", first, last, positions);
+                }}
+  {
+  }
 
-  ArrayFile& file () { return file_; } ///< of the points
   const BlockCutter& cutter () const { return cutter_; }
   std::size_t points () const { return points_; }
   Index first (std::size_t block) const
@@ -58,6 +116,7 @@ public:
   }
   Index last (std::size_t block) const { return first (block + 1); }
   bool hasPoints (std::size_t block) const { return first (block) < last (block); }
+  std::vector<Index> all () const { return pointsFrom (0, static_cast<Index> (points_)); }
   std::vector<Index> own (std::size_t block) const
   {
     return pointsFrom (first (block), last (block));
@@ -76,7 +135,15 @@ public:
   }
 
   /// What a block has written in a step.
-  ArrayFile& slice (const char* step, std::size_t block);
+  ArrayFile& slice (const char* step, std::size_t block)
+  {
+    const std::string name = blockFile (step, block);
+    const auto known = slices_.find (name);
+    return known != slices_.end ()
+               ? known->second
+               : slices_.emplace (name, openArrays (context_.store, name, context_.plan))
+                     .first->second;
+  }
 
   /// Values of some points from an array of a step, `width` for each. If they are indices, these must
   /// be those of points.
@@ -98,10 +165,47 @@ public:
   /// Lists of some points from two arrays of a step, the second of which is named "<array>.offsets":
   /// row i is that of points[i].
   CsrLists gatherLists (const char* step, const std::string& array,
-                        const std::vector<Index>& points);
+                        const std::vector<Index>& points)
+  {
+    CsrLists all;
+    all.offsets.reserve (points.size () + 1);
+    all.offsets.push_back (0);
+    std::size_t entries = 0; // of whole blocks, which are most if all points are asked for
+    forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
+      if (end - begin == last (block) - first (block))
+        entries += slice (step, block).count (array);
+    });
+    all.ids.reserve (entries);
+    forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
+      ArrayFile& its = slice (step, block);
+      std::vector<Index> offsets;
+      its.append (array + ".offsets", begin, end + std::size_t{1}, offsets);
+      its.require (std::is_sorted (offsets.begin (), offsets.end ()));
+      const std::size_t before = all.ids.size ();
+      requireListed (before + (offsets.back () - offsets.front ()));
+      its.append (array, offsets.front (), offsets.back (), all.ids);
+      its.requireBelow (all.ids, points_, before);
+      for (auto offset = offsets.begin () + 1; offset != offsets.end (); ++offset)
+        all.offsets.push_back (static_cast<Index> (before) + *offset - offsets.front ());
+    });
+    return all;
+  }
 
   /// The neighbours of points without those beside lines.
-  CsrLists nearest (const std::vector<Index>& points);
+  CsrLists nearest (const std::vector<Index>& points)
+  {
+    const std::size_t width = std::min<std::size_t> (
+        static_cast<std::size_t> (context_.options.neighbors.k), points_ - 1);
+    requireListed (points.size () * width);
+    CsrLists lists;
+    lists.ids = gather<Index> (neighbors_step_, "ids", points, width);
+    lists.offsets.resize (points.size () + 1);
+    for (std::size_t i = 0; i <= points.size (); ++i)
+      lists.offsets[i] = static_cast<Index> (i * width);
+    return lists;
+  }
+
+  CsrLists nearestOfAll () { return nearest (all ()); }
 
 private:
   // Calls visit (block, begin, end), the latter two counted in the block, for points that follow each

@@ -56,7 +56,6 @@ main (int argc, char** argv)
     for (const Eigen::Vector3d& point : points)
       for (const double coordinate : point)
         file.writeNumber (static_cast<float> (coordinate), ByteOrder::LITTLE);
-    file.close ();
     file.publish ();
   });
 }

@@ -11,7 +11,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <climits>
 #include <csignal>
 #include <cstdlib>
 
@@ -20,22 +19,18 @@ namespace {
 constexpr std::size_t BUFFER_BYTES = 1U << 20U;
 constexpr std::size_t MOST_FILES = 8;
 
-/// Names of the existing temporary files, for the signal handler.
-struct TemporaryName
-{
-  std::atomic<bool> in_use{false};
-  std::array<char, PATH_MAX> name{};
-};
-std::array<TemporaryName, MOST_FILES> temporary_names;
+/// Names of the existing temporary files, for the signal handler, which does not know files beyond
+/// MOST_FILES. The strings are those of their AtomicFiles; nullptr is a free place.
+std::array<std::atomic<const char*>, MOST_FILES> temporary_names{};
 
 int exit_code_of_shrunk_input = EXIT_FAILURE;
 
 void
 removeTemporaryFiles ()
 {
-  for (TemporaryName& temporary : temporary_names)
-    if (temporary.in_use)
-      ::unlink (temporary.name.data ());
+  for (const std::atomic<const char*>& place : temporary_names)
+    if (const char* const name = place)
+      ::unlink (name);
 }
 
 extern "C" void
@@ -58,23 +53,13 @@ endOnBusError (int signal_number, siginfo_t* info, void* /*context*/)
   ::raise (signal_number);
 }
 
-std::size_t
-remember (const std::string& name)
-{
-  for (std::size_t slot = 0; slot < MOST_FILES && name.size () < PATH_MAX; ++slot)
-    if (!temporary_names[slot].in_use) {
-      std::strcpy (temporary_names[slot].name.data (), name.c_str ());
-      temporary_names[slot].in_use = true;
-      return slot;
-    }
-  return MOST_FILES;
-}
-
+/// Puts a name in the place of another one; either may be nullptr. Leaves errno as it is.
 void
-forget (std::size_t slot)
+replaceName (const char* old, const char* name)
 {
-  if (slot < MOST_FILES)
-    temporary_names[slot].in_use = false;
+  for (std::atomic<const char*>& place : temporary_names)
+    if (const char* its = old; place.compare_exchange_strong (its, name))
+      return;
 }
 
 /// \return 0, or the number of the error
@@ -126,16 +111,17 @@ requireWritable (const std::filesystem::path& path)
   const std::filesystem::path target = resolve (path);
   const std::filesystem::path folder = folderOf (target);
   const bool is_stream = isStandardStream (path);
+  const std::filesystem::file_status its =
+      is_stream ? std::filesystem::file_status () : std::filesystem::status (target, error);
   if (is_stream && ::isatty (STDOUT_FILENO) == 1)
     failOn (path, "it is a terminal, which cannot show a mesh; redirect it to a file or a program");
   if (!std::filesystem::exists (folder, error))
     failOn (path, "there is no folder '" + folder.string () + "'; create it first");
   if (!std::filesystem::is_directory (folder, error))
     failOn (path, "'" + folder.string () + "' is not a folder");
-  if (!is_stream && std::filesystem::is_directory (target, error))
+  if (std::filesystem::is_directory (its))
     failOn (path, "it is a folder; give the name of a file");
-  if (!is_stream && std::filesystem::exists (target, error) &&
-      !std::filesystem::is_regular_file (target, error))
+  if (std::filesystem::exists (its) && !std::filesystem::is_regular_file (its))
     failOn (path, "it is a device or a pipe; give the name of a file");
   if (::access (folder.c_str (), W_OK | X_OK) != 0)
     failOn (path,
@@ -165,8 +151,7 @@ handleSignals (int input_failed)
 }
 
 AtomicFile::AtomicFile (const std::filesystem::path& path, bool is_private)
-    : path_ (path), target_ (is_private ? path : resolve (path)), slot_ (MOST_FILES),
-      buffer_ (BUFFER_BYTES)
+    : path_ (path), target_ (is_private ? path : resolve (path)), buffer_ (BUFFER_BYTES)
 {
   requireWritable (path);
   constexpr int MOST_TRIES = 100;
@@ -176,17 +161,15 @@ AtomicFile::AtomicFile (const std::filesystem::path& path, bool is_private)
     const std::string name =
         ".pcl_floater." + std::to_string (::getpid ()) + "." + std::to_string (i) + ".tmp";
     temporary_ = (folderOf (target_) / name).string ();
-    slot_ = remember (temporary_); // before it exists, because a signal may come right after
+    replaceName (nullptr, temporary_.c_str ()); // before it exists: a signal may come right after
     descriptor_ = ::open (temporary_.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (descriptor_ < 0)
-      forget (slot_); // leaves errno as it is
+      replaceName (temporary_.c_str (), nullptr);
     if (descriptor_ < 0 && errno != EEXIST)
       break;
   }
-  if (descriptor_ < 0) {
-    slot_ = MOST_FILES;
+  if (descriptor_ < 0)
     fail (errno);
-  }
   struct stat status = {};
   constexpr mode_t PERMISSIONS = 07777;
   if (!is_private && !isStandardStream (path_) && ::stat (target_.c_str (), &status) == 0)
@@ -199,7 +182,7 @@ AtomicFile::~AtomicFile ()
     ::close (descriptor_);
   if (!temporary_.empty ())
     ::unlink (temporary_.c_str ());
-  forget (slot_);
+  replaceName (temporary_.c_str (), nullptr);
 }
 
 void
@@ -251,6 +234,8 @@ AtomicFile::close ()
 void
 AtomicFile::publish ()
 {
+  if (descriptor_ >= 0)
+    close ();
   if (isStandardStream (path_)) { // the destructor removes the file
     try {
       if (const int error =
@@ -264,9 +249,8 @@ AtomicFile::publish ()
   }
   if (::rename (temporary_.c_str (), target_.c_str ()) != 0)
     fail (errno);
+  replaceName (temporary_.c_str (), nullptr);
   temporary_.clear ();
-  forget (slot_);
-  slot_ = MOST_FILES;
 }
 
 void
@@ -281,23 +265,6 @@ AtomicFile::fail (int error) const
   else if (error == EFBIG)
     advice = "; raise the limit on file sizes (ulimit -f) or write a smaller format";
   failOn (path_, std::strerror (error) + advice);
-}
-
-void
-writeFile (const std::filesystem::path& path, std::string_view bytes, bool is_private)
-{
-  AtomicFile file (path, is_private);
-  file.write (bytes);
-  file.close ();
-  file.publish ();
-}
-
-void
-stageFile (const std::filesystem::path& path, std::string_view bytes, OutputFiles& files)
-{
-  AtomicFile& file = files.emplace_back (path);
-  file.write (bytes);
-  file.close ();
 }
 
 } // namespace pcl::floater

@@ -68,8 +68,8 @@ public:
   /// Writes all bytes and checks that they arrived on the disk.
   void close ();
 
-  /// Gives the closed file its final name, which makes it visible, or copies it to the standard
-  /// output.
+  /// Closes the file, if it is open, and gives it its final name, which makes it visible, or copies it
+  /// to the standard output.
   void publish ();
 
 private:
@@ -100,22 +100,31 @@ private:
   std::filesystem::path path_; // as given by the user
   std::filesystem::path target_;
   std::string temporary_;
-  std::size_t slot_ = 0; // in the table of the signal handler
   int descriptor_ = -1;
   std::vector<char> buffer_;
   std::size_t used_ = 0;    // bytes in the buffer
   std::size_t written_ = 0; // bytes passed to the system
 };
 
-void
-writeFile (const std::filesystem::path& path, std::string_view bytes, bool is_private = false);
+inline void
+writeFile (const std::filesystem::path& path, std::string_view bytes, bool is_private = false)
+{
+  AtomicFile file (path, is_private);
+  file.write (bytes);
+  file.publish ();
+}
 
 /// Files that become visible together.
 using OutputFiles = std::deque<AtomicFile>;
 
 /// Writes one of them under a temporary name.
-void
-stageFile (const std::filesystem::path& path, std::string_view bytes, OutputFiles& files);
+inline void
+stageFile (const std::filesystem::path& path, std::string_view bytes, OutputFiles& files)
+{
+  AtomicFile& file = files.emplace_back (path);
+  file.write (bytes);
+  file.close ();
+}
 
 inline void
 publishAll (OutputFiles& files)

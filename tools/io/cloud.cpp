@@ -6,27 +6,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <map>
 #include <set>
 
 namespace pcl::floater {
 namespace {
-FieldTriple
-findTriple (const Cloud& cloud, const std::array<const char*, 3>& names,
-            std::initializer_list<ScalarType> types)
-{
-  FieldTriple triple{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    triple[i] = cloud.find (names[i]);
-    if (!triple[i] || triple[i]->count != 1 || triple[i]->type != triple[0]->type)
-      return {};
-  }
-  const bool fits = std::find (types.begin (), types.end (), triple[0]->type) != types.end ();
-  return fits ? triple : FieldTriple{};
-}
-
 std::size_t
 coordinateField (const std::vector<Field>& fields, const std::string& name)
 {
@@ -176,18 +161,6 @@ narrowColors (Cloud& cloud)
 
 } // namespace
 
-FieldTriple
-colorFields (const Cloud& cloud)
-{
-  return findTriple (cloud, {"red", "green", "blue"}, {ScalarType::UINT8});
-}
-
-FieldTriple
-normalFields (const Cloud& cloud)
-{
-  return findTriple (cloud, {"nx", "ny", "nz"}, {ScalarType::FLOAT32, ScalarType::FLOAT64});
-}
-
 Cloud
 makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string> warnings)
 {
@@ -236,26 +209,6 @@ Cloud::positions () const
   return result;
 }
 
-bool
-widenCoordinates (const std::vector<Field*>& fields)
-{
-  int widened = 0;
-  for (Field* field : fields)
-    if ((field->name == "x" || field->name == "y" || field->name == "z") &&
-        field->type == ScalarType::FLOAT32) {
-      field->type = ScalarType::FLOAT64;
-      ++widened;
-    }
-  return widened == 3;
-}
-
-std::string
-facesLeftOut (std::size_t faces)
-{
-  return counted (faces, "face") + " of the input file " + (faces == 1 ? "was" : "were") +
-         " left out: only its points are used";
-}
-
 std::string
 shiftText (const Cloud& cloud)
 {
@@ -289,24 +242,29 @@ leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what)
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
 {
+  static constexpr std::uint32_t REMOVED = std::numeric_limits<std::uint32_t>::max ();
   std::size_t not_finite = 0;
-  std::vector<std::uint32_t> kept;
+  std::vector<std::uint32_t> kept, numbers (cloud.rows, REMOVED);
   for (std::uint32_t row = 0; row < cloud.rows; ++row)
-    if (!cloud.isLeftOut (row)) {
-      if (cloud.positionOfRow (row).allFinite ())
-        kept.push_back (row);
-      else
-        ++not_finite;
+    if (cloud.isLeftOut (row))
+      continue;
+    else if (!cloud.positionOfRow (row).allFinite ())
+      ++not_finite;
+    else {
+      numbers[row] = static_cast<std::uint32_t> (kept.size ());
+      kept.push_back (row);
     }
   if (kept.size () == cloud.rows)
     return 0;
   cloud.kept = std::move (kept);
-  std::vector<std::uint32_t> numbers (cloud.rows);
-  for (std::uint32_t point = 0; point < cloud.size (); ++point)
-    numbers[cloud.row (point)] = point;
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
       corner = numbers[corner];
+  const auto isRemoved = [] (const auto& triangle) {
+    return std::find (triangle.begin (), triangle.end (), REMOVED) != triangle.end ();
+  };
+  triangles.erase (std::remove_if (triangles.begin (), triangles.end (), isRemoved),
+                   triangles.end ());
   return not_finite;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "file_bytes.h"
+#include "format.h"
 
 #include <Eigen/Core>
 
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -70,16 +72,16 @@ struct TypeNames
   std::string_view pcd; // with the size
 };
 constexpr std::array<TypeNames, 10> TYPE_NAMES{
-    {{"char", "int8", "signed_char", "Int8", "I"},
-     {"uchar", "uint8", "unsigned_char", "UInt8", "U"},
-     {"short", "int16", "short", "Int16", "I"},
-     {"ushort", "uint16", "unsigned_short", "UInt16", "U"},
-     {"int", "int32", "int", "Int32", "I"},
-     {"uint", "uint32", "unsigned_int", "UInt32", "U"},
-     {"", "", "vtktypeint64", "Int64", "I"},
-     {"", "", "vtktypeuint64", "UInt64", "U"},
-     {"float", "float32", "float", "Float32", "F"},
-     {"double", "float64", "double", "Float64", "F"}}};
+    {{"char", "int8", "signed_char", "Int8", "I1"},
+     {"uchar", "uint8", "unsigned_char", "UInt8", "U1"},
+     {"short", "int16", "short", "Int16", "I2"},
+     {"ushort", "uint16", "unsigned_short", "UInt16", "U2"},
+     {"int", "int32", "int", "Int32", "I4"},
+     {"uint", "uint32", "unsigned_int", "UInt32", "U4"},
+     {"", "", "vtktypeint64", "Int64", "I8"},
+     {"", "", "vtktypeuint64", "UInt64", "U8"},
+     {"float", "float32", "float", "Float32", "F4"},
+     {"double", "float64", "double", "Float64", "F8"}}};
 
 inline const TypeNames&
 namesOf (ScalarType type)
@@ -87,13 +89,12 @@ namesOf (ScalarType type)
   return TYPE_NAMES[static_cast<std::size_t> (type)];
 }
 
-/// The first type whose names fit, if there is one.
-template <typename Fits>
-std::optional<ScalarType>
-findType (const Fits& fits)
+/// The type that a format calls so, if there is one.
+inline std::optional<ScalarType>
+typeCalled (std::string_view name, std::string_view TypeNames::*format)
 {
   for (std::size_t type = 0; type < TYPE_NAMES.size (); ++type)
-    if (fits (TYPE_NAMES[type], static_cast<ScalarType> (type)))
+    if (!name.empty () && TYPE_NAMES[type].*format == name)
       return static_cast<ScalarType> (type);
   return std::nullopt;
 }
@@ -288,13 +289,34 @@ vectorOf (const FieldTriple& fields, std::size_t row)
   return {fields[0]->asDouble (row), fields[1]->asDouble (row), fields[2]->asDouble (row)};
 }
 
+/// The fields of these names if they have one value each and one of these types.
+inline FieldTriple
+findTriple (const Cloud& cloud, const std::array<const char*, 3>& names,
+            std::initializer_list<ScalarType> types)
+{
+  FieldTriple triple{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    triple[i] = cloud.find (names[i]);
+    if (!triple[i] || triple[i]->count != 1 || triple[i]->type != triple[0]->type)
+      return {};
+  }
+  const bool fits = std::find (types.begin (), types.end (), triple[0]->type) != types.end ();
+  return fits ? triple : FieldTriple{};
+}
+
 /// The fields red, green and blue if they are 8-bit colours, else three times nullptr.
-FieldTriple
-colorFields (const Cloud& cloud);
+inline FieldTriple
+colorFields (const Cloud& cloud)
+{
+  return findTriple (cloud, {"red", "green", "blue"}, {ScalarType::UINT8});
+}
 
 /// The fields nx, ny and nz if they are floats of one type, else three times nullptr.
-FieldTriple
-normalFields (const Cloud& cloud);
+inline FieldTriple
+normalFields (const Cloud& cloud)
+{
+  return findTriple (cloud, {"nx", "ny", "nz"}, {ScalarType::FLOAT32, ScalarType::FLOAT64});
+}
 
 /// Makes a cloud from the fields of a file: finds x, y and z (or X, Y, Z), unpacks PCL's rgb and
 /// rgba, and names normals nx, ny and nz. A second field of a name gets another one, and a second
@@ -307,12 +329,26 @@ makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string>
 /// Makes the fields x, y and z of a text double if they are float: then they get all digits of the
 /// text.
 /// \return whether all three were float
-bool
-widenCoordinates (const std::vector<Field*>& fields);
+inline bool
+widenCoordinates (const std::vector<Field*>& fields)
+{
+  int widened = 0;
+  for (Field* field : fields)
+    if ((field->name == "x" || field->name == "y" || field->name == "z") &&
+        field->type == ScalarType::FLOAT32) {
+      field->type = ScalarType::FLOAT64;
+      ++widened;
+    }
+  return widened == 3;
+}
 
 /// The warning that the file has faces, which are not read.
-std::string
-facesLeftOut (std::size_t faces);
+inline std::string
+facesLeftOut (std::size_t faces)
+{
+  return counted (faces, "face") + " of the input file " + (faces == 1 ? "was" : "were") +
+         " left out: only its points are used";
+}
 
 /// The shift as text, "500000 5500000 0"; empty if there is none.
 std::string
@@ -324,8 +360,8 @@ void
 leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what);
 
 /// Takes the rows that were left out, and points with a NaN or infinite coordinate, out of the
-/// cloud, and renumbers the triangles, which must not use such points. No values are moved or
-/// copied.
+/// cloud, and renumbers the triangles; those that use such a point are removed. No values are moved
+/// or copied.
 /// \return the number of points that are not finite
 std::size_t
 removeNonFinitePoints (Cloud& cloud, Triangles& triangles);

@@ -4,7 +4,6 @@
 
 #include "text_scanner.h"
 
-#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -27,34 +26,6 @@ requireReadable (const std::filesystem::path& path)
   if (extension == ".e57")
     throw ReadError ("it is an E57 file, which cannot be read; convert it: pdal translate a.e57 "
                      "a.las, or CloudCompare -SILENT -O a.e57 -C_EXPORT_FMT PLY -SAVE_CLOUDS");
-}
-
-Cloud
-parseBin (const FileBytes& file, const ReadOptions& /*options*/)
-{
-  constexpr double FARTHEST = 1e6; // metres
-  constexpr double MOST_RINGS = 256.0;
-  const std::size_t bytes = file.view ().size ();
-  for (const std::size_t count : {std::size_t{5}, std::size_t{4}}) {
-    std::vector<Field> fields;
-    for (const char* name : {"x", "y", "z", "intensity", "ring"})
-      if (fields.size () < count)
-        fields.push_back ({name, ScalarType::FLOAT32});
-    const std::size_t points = bytes / (count * sizeof (float));
-    viewRows (pointersTo (fields), file.at (0), ByteOrder::LITTLE);
-    bool fits = points > 0 && bytes == points * count * sizeof (float);
-    for (std::size_t p = 0; p < points && fits; ++p) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        fits &= std::abs (fields[axis].asDouble (p)) < FARTHEST;
-      const double ring = fields.back ().asDouble (p);
-      fits &= count == 4 || (ring >= 0.0 && ring < MOST_RINGS && ring == std::floor (ring));
-    }
-    if (!fits)
-      continue;
-    return makeCloud (std::move (fields), points);
-  }
-  throw ReadError ("it does not hold four floats for each point, x, y, z and intensity, as KITTI's "
-                   "files do, nor five, with a ring");
 }
 
 namespace {

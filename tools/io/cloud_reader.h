@@ -10,7 +10,6 @@
 #pragma once
 
 #include "cloud.h"
-#include "format.h"
 
 #include <filesystem>
 
@@ -88,52 +87,24 @@ struct ReadOptions
 };
 
 /// Makes a cloud of the bytes of a file, which are not empty. It has points of all classes.
+/// doc/formats.md has the variants of each format, and what is read of them.
 using CloudParser = Cloud (const FileBytes& file, const ReadOptions& options);
 
-/// PCD of version 0.7 and older: ascii, binary, binary_compressed. Padding fields ("_") are
-/// skipped. The origin of the viewpoint is read; coordinates are not transformed. A header without
-/// SIZE, TYPE or COUNT is one of floats.
-CloudParser parsePcd;
-
-/// PLY, ascii and binary in both byte orders: the element "vertex", without its list properties, and
-/// "face" if faces are asked for. Without it, elements after the vertices are ignored.
-CloudParser parsePly;
-
-/// VTK's legacy format: points with colours, normals, and texture coordinates as the fields s and t;
-/// of POLYDATA, the polygons (both layouts). All other data are left out.
-CloudParser parseVtk;
-
-/// VTK's format in XML, of one piece: points and their arrays, as text, in base64 or raw, also compressed
-/// by zlib.
-CloudParser parseVtp;
-
-/// Wavefront OBJ: lines "v x y z", "v x y z w" or "v x y z r g b" (colours from 0 to 1, or to 255).
-/// Normals are read if there are as many "vn" as "v" lines, or faces tell whose they are. All other
-/// lines are ignored. A line that ends with \ goes on in the next.
-CloudParser parseObj;
-
-/// STL, binary and text: the corners of the facets, equal ones once.
+CloudParser parsePcd; ///< padding fields ("_") are skipped; coordinates are not transformed
+CloudParser
+    parsePly; ///< "face" if faces are asked for; without it, what follows "vertex" is ignored
+CloudParser parseVtk; ///< polygons of both layouts; texture coordinates are the fields s and t
+CloudParser parseVtp; ///< its faces are counted only
+CloudParser parseObj; ///< normals of as many "vn" as "v" lines, or of those that faces name
 CloudParser parseStl;
+CloudParser parsePtx; ///< of several scans, each point has the number of its scan
+CloudParser parseLas; ///< a class, the flags synthetic and withheld, and a time are fields
 
 /// Floats, as KITTI and nuScenes store what a spinning lidar has seen: x, y, z and intensity of each
 /// point, and the ring, a whole number, where there are five.
 CloudParser parseBin;
 
-/// PTX: all scans of the file, in their common frame, with intensity and colour. Pixels without a
-/// return are left out. A single scan is organized and has the place of its sensor; of several, each
-/// point has the number of its scan.
-CloudParser parsePtx;
-
-/// LAS 1.0 to 1.4, point formats 0 to 10, not compressed: x, y, z, intensity, colour, returns, class,
-/// the flags synthetic and withheld, source and time. A colour is the higher 8 of its 16 bits, or
-/// the lower ones if none is above 255.
-CloudParser parseLas;
-
-/// Text with a point in each line, as many columns as in the first. They are separated by blanks,
-/// tabs, commas or semicolons, and named by a line before them, which may be a comment; columns
-/// without names are x, y, z, and others by what they hold. Lines before the first point that are
-/// no points are skipped, with a warning; a single whole number is how many points there are. Lines
-/// that begin with #, // or % are comments.
+/// Text with a point in each line.
 /// \throws ReadError also if the first column counts the points, or a header names no coordinates
 CloudParser parseXyz;
 

@@ -95,23 +95,18 @@ doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangl
   return doubled;
 }
 
-std::size_t
-imageSideFor (std::size_t points, double area_used)
-{
-  constexpr std::size_t SMALLEST = 256, LARGEST = 8192;
-  constexpr double PIXELS_PER_POINT = 4.0;
-  const double wanted =
-      std::sqrt (PIXELS_PER_POINT * static_cast<double> (points) / std::max (area_used, 0.01));
-  std::size_t side = SMALLEST;
-  while (side < LARGEST && static_cast<double> (side) < wanted)
-    side *= 2;
-  return side;
-}
-
 ColourImage
 bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordinates& texture,
              std::size_t side)
 {
+  constexpr std::size_t SMALLEST = 256, LARGEST = 8192;
+  constexpr double PIXELS_PER_POINT = 4.0;
+  const double wanted =
+      std::sqrt (PIXELS_PER_POINT * static_cast<double> (texture.coordinates.size ()) /
+                 std::max (texture.area_used, 0.01));
+  if (side == 0)
+    for (side = SMALLEST; side < LARGEST && static_cast<double> (side) < wanted;)
+      side *= 2;
   constexpr std::uint8_t GREY = 128;
   ColourImage image;
   image.width = image.height = side;

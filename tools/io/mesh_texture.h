@@ -67,16 +67,12 @@ parsePng (const FileBytes& file);
 Cloud
 doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles);
 
-/// Side of the image at which an edge of the mesh is about two pixels long: a power of two from 256
-/// to 8192.
-/// \param area_used share of the square that the mesh covers
-std::size_t
-imageSideFor (std::size_t points, double area_used);
-
 /// Paints every triangle with the colours of its corners, which are averaged linearly in between.
 /// Pixels that no triangle covers get the colour of the nearest that one does, so that nothing
 /// shows at seams, at any level of a mipmap. O(pixels).
 /// \param cloud with colours (see colorFields)
+/// \param side of the image, in pixels; 0: a power of two from 256 to 8192, at which an edge of the
+///   mesh is about two pixels long
 ColourImage
 bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordinates& texture,
              std::size_t side);

@@ -53,10 +53,8 @@ makeFields (const TextScanner& scanner, PcdHeader& lines)
                                 "' of the PCD header has COUNT 0 and was left out");
       continue;
     }
-    const auto type = findType ([&] (const TypeNames& names, ScalarType scalar) {
-      const bool is_byte = lines.types[f] == "B" && scalar == ScalarType::UINT8;
-      return (is_byte || lines.types[f] == names.pcd) && lines.sizes[f] == sizeOf (scalar);
-    });
+    const std::string name = lines.types[f] + std::to_string (lines.sizes[f]);
+    const auto type = typeCalled (name == "B1" ? "U1" : name, &TypeNames::pcd);
     if (!type)
       scanner.fail ("field '" + lines.names[f] + "' has TYPE " + lines.types[f] + " and SIZE " +
                     std::to_string (lines.sizes[f]) + ", which is not a type of PCD");

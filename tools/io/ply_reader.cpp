@@ -38,12 +38,10 @@ struct PlyHeader
 ScalarType
 plyType (const TextScanner& scanner, std::string_view name)
 {
-  const auto type = findType ([name] (const TypeNames& names, ScalarType) {
-    return !name.empty () && (name == names.ply || name == names.sized_ply);
-  });
-  if (!type)
-    scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
-  return *type;
+  for (const auto format : {&TypeNames::ply, &TypeNames::sized_ply})
+    if (const auto type = typeCalled (name, format))
+      return *type;
+  scanner.fail ("'" + std::string (name) + "' is not a type of PLY");
 }
 
 Property

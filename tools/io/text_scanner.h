@@ -4,7 +4,6 @@
 #pragma once
 
 #include "cloud.h"
-#include "format.h"
 
 #include <algorithm>
 #include <charconv>
@@ -152,9 +151,10 @@ public:
   {
     T result;
     const std::string_view text = word ();
-    if (!parseNumber (text, result))
-      failNumber (text);
-    return result;
+    if (parseNumber (text, result))
+      return result;
+    fail (text.empty () ? "it has fewer values than it must have"
+                        : quoted (text) + " is not a number of the right type");
   }
 
 private:
@@ -162,13 +162,6 @@ private:
   {
     while (at_ < end_ && isBlank (text_[at_]))
       ++at_;
-  }
-
-  [[noreturn]] void failNumber (std::string_view text) const
-  {
-    if (text.empty ())
-      fail ("it has fewer values than it must have");
-    fail (quoted (text) + " is not a number of the right type");
   }
 
   std::string_view text_;

@@ -162,43 +162,40 @@ copyRows (const py::buffer_info& info)
 struct ResultArray
 {
   std::shared_ptr<const void> owner;
-  const void* first = nullptr;
-  const char* format = "i"; ///< of the elements: "i", "f" or "d"
-  std::size_t rows = 0;
-  std::size_t columns = 0; ///< 0: an array of one dimension
+  const void* first;
+  py::ssize_t element; ///< bytes
+  std::string format;  ///< of the elements
+  std::vector<py::ssize_t> shape, strides;
 };
 
 py::buffer_info
 bufferOf (const ResultArray& array)
 {
-  static_assert (sizeof (int) == sizeof (std::uint32_t), "the format of the indices is i");
-  static_assert (sizeof (int) == sizeof (float), "the sizes of the formats i and f");
-  const auto size =
-      static_cast<py::ssize_t> (array.format[0] == 'd' ? sizeof (double) : sizeof (int));
-  std::vector<py::ssize_t> shape{static_cast<py::ssize_t> (array.rows)};
-  std::vector<py::ssize_t> strides{size};
-  if (array.columns > 0) {
-    shape.push_back (static_cast<py::ssize_t> (array.columns));
-    strides = {size * shape.back (), size};
-  }
   static double none = 0.0; // an empty array has an address, too
   // The arrays are the user's, who may change them. The report in C++ is not read again.
-  void* first = array.rows > 0 ? const_cast<void*> (array.first) : &none;
-  return {first, size, array.format, static_cast<py::ssize_t> (shape.size ()), shape, strides};
+  void* first = array.shape[0] > 0 ? const_cast<void*> (array.first) : &none;
+  return {first,       array.element, array.format, static_cast<py::ssize_t> (array.shape.size ()),
+          array.shape, array.strides};
 }
 
 template <typename T>
 ResultArray
 arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
 {
+  const auto rows = static_cast<py::ssize_t> (values.size ());
+  constexpr py::ssize_t ROW = sizeof (T);
   if constexpr (std::is_arithmetic_v<T>)
-    return {owner, values.data (), "i", values.size (), 0};
+    return {owner, values.data (), ROW, "i", {rows}, {ROW}};
   else {
-    using Number = typename T::value_type;
-    const char* const format = std::is_same_v<Number, float>    ? "f"
-                               : std::is_same_v<Number, double> ? "d"
-                                                                : "i";
-    return {owner, values.data (), format, values.size (), sizeof (T) / sizeof (Number)};
+    using Given = typename T::value_type; // indices are unsigned
+    using Number = std::conditional_t<std::is_same_v<Given, std::uint32_t>, std::int32_t, Given>;
+    constexpr py::ssize_t ELEMENT = sizeof (Number);
+    return {owner,
+            values.data (),
+            ELEMENT,
+            py::format_descriptor<Number>::format (),
+            {rows, ROW / ELEMENT},
+            {ROW, ELEMENT}};
   }
 }
 

@@ -10,60 +10,103 @@
 #include <new>
 
 namespace pcl::floater {
-int
-guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
-         std::string* to)
-{
-  int code = EXIT_INTERNAL;
-  std::string message;
-  try {
-    return work ();
-  }
-  catch (const ToolError& error) {
-    code = error.code;
-    message = std::string (error.what ()) + (code == EXIT_USAGE ? "\nTry --help." : "");
-  }
-  catch (const ReadError& error) {
-    code = EXIT_INPUT;
-    message = error.what ();
-  }
-  catch (const WriteError& error) {
-    code = EXIT_OUTPUT;
-    message = error.what ();
-  }
-  catch (const std::bad_alloc&) {
-    message = scratchFailure ();
-    if (message.empty ())
-      message = std::string ("not enough memory; ") + if_no_memory;
-  }
-  catch (const std::exception& error) {
-    message = std::string ("unexpected error: ") + error.what ();
-  }
-  if (to != nullptr)
-    *to = message;
-  else
-    std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
-  return code;
-}
-
-std::vector<std::uint32_t>
-readLoop (const std::filesystem::path& path)
-{
-  std::string text (FileBytes (path).view ());
-  std::replace (text.begin (), text.end (), ',', ' ');
-  std::vector<std::uint32_t> loop;
-  TextScanner scanner (text);
-  while (scanner.nextLine ())
-    for (std::string_view word = scanner.word (); !word.empty () && word.front () != '#';
-         word = scanner.word ())
-      if (!parseNumber (word, loop.emplace_back ()))
-        scanner.fail ("'" + std::string (word) + "' is not the index of a point");
-  if (loop.empty ())
-    throw ReadError ("it has no indices of points");
-  return loop;
-}
-
 namespace {
+using Words = std::vector<std::string>;
+
+std::string
+plain (const std::string& word)
+{
+  std::string text = word.substr (std::min (word.find_first_not_of ('-'), word.size ()));
+  std::transform (text.begin (), text.end (), text.begin (), lowerCase);
+  return text;
+}
+
+/// Number of letters to insert, drop or replace, or of neighbours to swap, to make one word of the
+/// other.
+std::size_t
+editDistance (const std::string& a, const std::string& b)
+{
+  // Distances between the first letters of a and of b.
+  std::vector<std::vector<std::size_t>> table (a.size () + 1,
+                                               std::vector<std::size_t> (b.size () + 1));
+  for (std::size_t i = 0; i <= a.size (); ++i)
+    for (std::size_t j = 0; j <= b.size (); ++j) {
+      std::size_t& distance = table[i][j] = i + j;
+      if (i == 0 || j == 0)
+        continue;
+      distance = std::min ({table[i - 1][j] + 1, table[i][j - 1] + 1,
+                            table[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        distance = std::min (distance, table[i - 2][j - 2] + 1);
+    }
+  return table[a.size ()][b.size ()];
+}
+
+std::string
+usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
+{
+  const std::string message = error.what ();
+  const auto kind = static_cast<CLI::ExitCodes> (error.get_exit_code ());
+  // A mistyped option may leave its value where INPUT should be: so it is told first.
+  for (const std::string& word : app.remaining ())
+    if (word.size () > 1 && word.front () == '-' && word != "--") {
+      const std::string unknown = word.substr (0, word.find ('='));
+      Words names;
+      for (const CLI::Option* const option : app.get_options ())
+        if (!option->get_lnames ().empty ())
+          names.push_back (option->get_name ());
+      return "there is no option " + unknown + didYouMean (unknown, names);
+    }
+  if (kind == CLI::ExitCodes::ExtrasError)
+    return "'" + app.remaining ().front () +
+           "' is one file too many: there are one INPUT and one OUTPUT";
+  if (kind == CLI::ExitCodes::RequiredError)
+    return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
+  const bool is_mismatch = kind == CLI::ExitCodes::ArgumentMismatch;
+  if (is_mismatch ||
+      kind == CLI::ExitCodes::ConversionError) // of which the parser converts flags only
+    for (const std::string& argument : arguments) {
+      const std::size_t equals = std::min (argument.find ('='), argument.size ());
+      const std::string name = argument.substr (0, equals);
+      const CLI::Option* const option = app.get_option_no_throw (name);
+      if (option != nullptr && option->get_items_expected () == 0 && equals < argument.size ())
+        return name + " takes no value, but has '" + argument.substr (equals + 1) + "'";
+    }
+  const CLI::Option* const option =
+      app.get_option_no_throw (message.substr (0, message.find (':')));
+  if (!is_mismatch || option == nullptr)
+    return message;
+  if (option->count () > 1)
+    return option->get_name () + " is given " + std::to_string (option->count ()) +
+           " times; give it once";
+  const std::string& text = option->get_option_text ();
+  return option->get_name () + " needs a value, " + text.substr (0, text.find (" ("));
+}
+
+/// Breaks the texts of all options into lines.
+void
+wrapTexts (CLI::App& app)
+{
+  constexpr std::size_t COLUMNS = 55;
+  for (CLI::Option* const option : app.get_options ()) {
+    std::string text = option->get_description ();
+    std::size_t begin = 0; // of the line
+    for (std::size_t i = 0, space = 0; i < text.size (); ++i) {
+      if (text[i] == '\n')
+        begin = i + 1;
+      else if (text[i] == ' ')
+        space = i;
+      // The words of a choice stay on one line, behind a colon.
+      const bool is_choice = begin >= 2 && text[begin - 2] == ':';
+      if (i - begin >= COLUMNS && space > begin && !is_choice) {
+        text[space] = '\n';
+        begin = space + 1;
+      }
+    }
+    option->description (text);
+  }
+}
+
 void
 checkTextureOptions (const CommandLine& line)
 {
@@ -124,7 +167,119 @@ warnOfUnpublished (const CLI::App& app, const Options& given, const Options& eff
                         names + "; --method tw385 is that report and nothing else");
 }
 
+bool
+areSame (const std::filesystem::path& a, const std::filesystem::path& b)
+{
+  std::error_code error;
+  if (std::filesystem::equivalent (a, b, error) && !error)
+    return true;
+  // weakly_canonical would leave a relative path as it is if no part of it exists.
+  const auto full = [&error] (const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
+  };
+  return full (a) == full (b);
+}
+
+std::string
+unknownExtension (const std::filesystem::path& path)
+{
+  const std::string extension = lowerExtension (path);
+  return extension.empty () ? "it has no extension that tells its format"
+                            : "its extension '" + extension + "' is unknown";
+}
+
 } // namespace
+
+int
+guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
+         std::string* to)
+{
+  int code = EXIT_INTERNAL;
+  std::string message;
+  try {
+    return work ();
+  }
+  catch (const ToolError& error) {
+    code = error.code;
+    message = std::string (error.what ()) + (code == EXIT_USAGE ? "\nTry --help." : "");
+  }
+  catch (const ReadError& error) {
+    code = EXIT_INPUT;
+    message = error.what ();
+  }
+  catch (const WriteError& error) {
+    code = EXIT_OUTPUT;
+    message = error.what ();
+  }
+  catch (const std::bad_alloc&) {
+    message = scratchFailure ();
+    if (message.empty ())
+      message = std::string ("not enough memory; ") + if_no_memory;
+  }
+  catch (const std::exception& error) {
+    message = std::string ("unexpected error: ") + error.what ();
+  }
+  if (to != nullptr)
+    *to = message;
+  else
+    std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
+  return code;
+}
+
+std::string
+didYouMean (const std::string& word, const std::vector<std::string>& words)
+{
+  constexpr std::size_t LONGEST = 100; // letters; nobody mistypes more
+  constexpr std::size_t FEWEST = 3;    // letters that tell what they begin
+  constexpr std::size_t MOST = 4;      // more words are no help
+  const std::string typed = plain (word);
+  Words nearest;
+  std::size_t least = LONGEST;
+  for (const std::string& candidate : words) {
+    const std::string known = plain (candidate);
+    if (typed.empty () || typed.size () > LONGEST)
+      break;
+    std::size_t distance = editDistance (typed, known);
+    if (distance > 0 && typed.size () >= FEWEST && known.compare (0, typed.size (), typed) == 0)
+      distance = 1;
+    if (3 * distance > std::max (typed.size (), known.size ()) || distance > least)
+      continue;
+    if (distance < least)
+      nearest.clear ();
+    least = distance;
+    nearest.push_back (candidate);
+  }
+  if (nearest.empty () || nearest.size () > MOST)
+    return "";
+  std::string text = "; did you mean " + nearest.front ();
+  for (std::size_t i = 1; i < nearest.size (); ++i)
+    text += (i + 1 < nearest.size () ? ", " : " or ") + nearest[i];
+  return text + "?";
+}
+
+std::optional<int>
+parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
+{
+  wrapTexts (app);
+  try {
+    app.parse (std::vector<std::string> (arguments.rbegin (), arguments.rend ()));
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError& error) {
+    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
+      return app.exit (error);
+    throw UsageError (usageMessage (app, error, arguments));
+  }
+}
+
+std::string
+rangeMessage (const CLI::App& app, const Problem& problem)
+{
+  const std::string name = toolName (problem.option);
+  return problem.option.empty () || app.get_option_no_throw (name) == nullptr
+             ? problem.message
+             : name + problem.message.substr (problem.option.size ());
+}
 
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line)
@@ -161,30 +316,6 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   return std::nullopt;
 }
 
-namespace {
-bool
-areSame (const std::filesystem::path& a, const std::filesystem::path& b)
-{
-  std::error_code error;
-  if (std::filesystem::equivalent (a, b, error) && !error)
-    return true;
-  // weakly_canonical would leave a relative path as it is if no part of it exists.
-  const auto full = [&error] (const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
-  };
-  return full (a) == full (b);
-}
-
-std::string
-unknownExtension (const std::filesystem::path& path)
-{
-  const std::string extension = lowerExtension (path);
-  return extension.empty () ? "it has no extension that tells its format"
-                            : "its extension '" + extension + "' is unknown";
-}
-
-} // namespace
-
 void
 checkPaths (const CommandLine& line)
 {
@@ -196,16 +327,6 @@ checkPaths (const CommandLine& line)
     throw ReadError (unknownExtension (line.input) + "; use " + CLOUD_EXTENSIONS +
                      ", or give its format by --input-format");
   }
-  for (const auto& [name, path] :
-       {std::pair ("--report", &line.report), std::pair ("--html", &line.html),
-        std::pair ("--loop", &line.loop), std::pair ("--parameterization", &line.parameterization)})
-    if (isStandardStream (*path))
-      throw UsageError (std::string (name) + " takes the name of a file, not -");
-  const std::filesystem::path materials = line.materials ();
-  for (const std::filesystem::path* path : {&materials, &line.texture})
-    if (path->filename ().string ().find_first_of ("\n\r") != std::string::npos)
-      throw UsageError ("the name of the file of materials or of the texture has a line break in "
-                        "it, which files in OBJ cannot hold; choose another one");
   // The first two are inputs.
   const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
       {{"INPUT", line.input},
@@ -214,20 +335,26 @@ checkPaths (const CommandLine& line)
        {"--parameterization", line.parameterization},
        {"--report", line.report},
        {"--html", line.html},
-       {"the file of materials", materials},
+       {"the file of materials", line.materials ()},
        {"--texture", line.texture}}};
+  for (const auto& [name, path] : all)
+    if (name.front () == '-' && isStandardStream (path))
+      throw UsageError (name + " takes the name of a file, not -");
+  for (const auto& [name, path] : {all[6], all[7]})
+    if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
+      throw UsageError ("the name of the file of materials or of the texture has a line break in "
+                        "it, which files in OBJ cannot hold; choose another one");
+  const auto refuse = [] (const std::string& one, const std::string& other, const auto& path) {
+    throw UsageError (one + " and " + other + " are the same file, '" + path.string () +
+                      "'; give different ones");
+  };
   for (std::size_t i = 2; i < all.size (); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const auto& [name, path] = all[i];
       const auto& [other_name, other] = all[j];
       if (!path.empty () && !other.empty () && !isStandardStream (path) &&
           !isStandardStream (other) && areSame (path, other))
-        throw UsageError (std::string (other_name)
-                              .append (" and ")
-                              .append (name)
-                              .append (" are the same file, '")
-                              .append (path.string ())
-                              .append ("'; give different ones"));
+        refuse (other_name, name, path);
     }
   if (!line.meshFormat () && isStandardStream (line.output))
     throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "

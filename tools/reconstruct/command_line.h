@@ -55,12 +55,6 @@ int
 guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
          std::string* to = nullptr);
 
-/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
-/// that begins with # begins a comment, up to the end of the line.
-/// \throws ReadError
-std::vector<std::uint32_t>
-readLoop (const std::filesystem::path& path);
-
 /// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
 /// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
 enum class Precision

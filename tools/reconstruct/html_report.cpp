@@ -12,6 +12,9 @@
 #include "points/neighbors.h"
 #include "report/findings.h"
 
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 #include <pcl/surface/floater/vertex_normals.h>
@@ -120,14 +123,11 @@ findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
 void
 thin (Drawing& drawing, std::size_t most)
 {
-  std::vector<Index> flawed;
-  for (const Flaw& flaw : drawing.flaws)
-    flawed.insert (flawed.end (), flaw.triangles.begin (), flaw.triangles.end ());
-  sortUnique (flawed);
   std::vector<std::uint8_t> stays (drawing.positions.size ());
-  for (const Index t : flawed)
-    for (const Index p : drawing.triangles[t])
-      stays[p] = 1;
+  for (const Flaw& flaw : drawing.flaws)
+    for (const Index t : flaw.triangles)
+      for (const Index p : drawing.triangles[t])
+        stays[p] = 1;
   const Box box = boxAround (drawing.positions);
   constexpr double CELLS = 1 << 20, GROWTH = 1.2;
   const double widest = box.sizes ().maxCoeff ();
@@ -242,16 +242,13 @@ base64 (const std::vector<Number>& numbers)
   std::string bytes (numbers.size () * sizeof (Number), '\0');
   for (std::size_t i = 0; i < numbers.size (); ++i)
     copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i], ByteOrder::LITTLE);
-  constexpr const char* DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size (); i += 3) {
-    std::uint32_t bits = 0; // of three bytes, and zeros beyond the end
-    for (std::size_t k = i; k < i + 3; ++k)
-      bits = bits << 8U | (k < bytes.size () ? static_cast<unsigned char> (bytes[k]) : 0U);
-    for (unsigned k = 0; k < 4; ++k)
-      text += i + k > bytes.size () ? '=' : DIGITS[bits >> (18U - 6U * k) & 63U];
-  }
-  return text;
+  namespace iterators = boost::archive::iterators;
+  using Digits = iterators::base64_from_binary<iterators::transform_width<const char*, 6, 8>>;
+  const std::size_t padding = (3 - bytes.size () % 3) % 3;
+  bytes.resize (bytes.size () + padding, '\0');
+  const char* const end = bytes.data () + bytes.size ();
+  std::string text (Digits (static_cast<const char*> (bytes.data ())), Digits (end));
+  return text.replace (text.size () - padding, padding, padding, '=');
 }
 
 struct Dots

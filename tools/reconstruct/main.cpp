@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
-#include "heap.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "report_json.h"
+#include "text_scanner.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +19,26 @@
 
 namespace pcl::floater {
 namespace {
+/// Reads a boundary loop: cloud indices in order, separated by blanks, commas or newlines. A word
+/// that begins with # begins a comment, up to the end of the line.
+/// \throws ReadError
+std::vector<std::uint32_t>
+readLoop (const std::filesystem::path& path)
+{
+  std::string text (FileBytes (path).view ());
+  std::replace (text.begin (), text.end (), ',', ' ');
+  std::vector<std::uint32_t> loop;
+  TextScanner scanner (text);
+  while (scanner.nextLine ())
+    for (std::string_view word = scanner.word (); !word.empty () && word.front () != '#';
+         word = scanner.word ())
+      if (!parseNumber (word, loop.emplace_back ()))
+        scanner.fail ("'" + std::string (word) + "' is not the index of a point");
+  if (loop.empty ())
+    throw ReadError ("it has no indices of points");
+  return loop;
+}
+
 /// Shows the current step on the standard error stream if that is a terminal that can erase a line.
 /// The line is erased at the end.
 class Progress
@@ -84,13 +104,7 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
       fields.push_back (field);
   Cloud flat = makeCloud (std::move (fields), points);
   flat.single_precision = precision != Precision::DOUBLE;
-  Triangles triangles;
-  std::copy_if (result.triangles.begin (), result.triangles.end (), std::back_inserter (triangles),
-                [&flat] (const auto& triangle) {
-                  return std::all_of (
-                      triangle.begin (), triangle.end (),
-                      [&flat] (std::uint32_t p) { return flat.position (p).allFinite (); });
-                });
+  Triangles triangles = result.triangles;
   removeNonFinitePoints (flat, triangles);
   return {std::move (flat), std::move (triangles)};
 }
@@ -164,12 +178,11 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
       notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
                           "which many readers of OBJ files do not take");
   }
-  if (!line.texture.empty ()) {
-    const std::size_t side = line.texture_size > 0
-                                 ? static_cast<std::size_t> (line.texture_size)
-                                 : imageSideFor (texture.coordinates.size (), texture.area_used);
-    stageFile (line.texture, pngOf (bakeColours (cloud, triangles, texture, side)), files);
-  }
+  if (!line.texture.empty ())
+    stageFile (line.texture,
+               pngOf (bakeColours (cloud, triangles, texture,
+                                   static_cast<std::size_t> (line.texture_size))),
+               files);
   return notes;
 }
 

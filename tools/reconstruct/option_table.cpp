@@ -5,36 +5,6 @@
 #include "scratch_arrays.h"
 
 namespace pcl::floater {
-CLI::Option*
-addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
-           const std::string& kind, const std::string& group)
-{
-  const auto take = [long_name = name.substr (name.find (',') + 1),
-                     parse] (const std::string& word) {
-    if (const std::string cause = parse (word); !cause.empty ())
-      throw CLI::ValidationError (long_name, "'" + word + "' " + cause);
-  };
-  return app.add_option_function<std::string> (name, take, text)->option_text (kind)->group (group);
-}
-
-CLI::Option*
-addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
-         const std::string& description, const std::string& group, const char* kind)
-{
-  const auto take = [&path] (const std::string& word) {
-    path = word;
-    return "";
-  };
-  return addParsed (app, name, take, description, kind, group);
-}
-
-std::string
-toolName (std::string name)
-{
-  std::replace (name.begin (), name.end (), '_', '-');
-  return "--" + name;
-}
-
 namespace {
 /// Reads "1,-2.5,3".
 /// \return nothing if these are not three finite numbers
@@ -57,12 +27,12 @@ using option_group::GENERAL;
 const char* const OUTPUT_GROUP = "More output";
 
 const char* const DESCRIPTION =
-    "Reconstructs a surface from unorganized points. The vertices of the mesh are the points of\n"
-    "the cloud, in the same order and with all their fields. The surface may be open or closed,\n"
-    "with holes, handles or several components. It is put together from the triangles on which "
-    "the\n"
-    "Delaunay stars of neighbouring points agree. A disc can also be laid out in the plane, by\n"
-    "Floater's meshless parameterization. The defaults need no tuning.\n";
+    R"(Reconstructs a surface from unorganized points. The vertices of the mesh are the points of
+the cloud, in the same order and with all their fields. The surface may be open or closed,
+with holes, handles or several components. It is put together from the triangles on which the
+Delaunay stars of neighbouring points agree. A disc can also be laid out in the plane, by
+Floater's meshless parameterization. The defaults need no tuning.
+)";
 
 const char* const FOOTER =
     R"(Examples:
@@ -108,14 +78,14 @@ struct TableOptions
   {
     const bool is_plain = range.text () == NumberRange{0, NO_LIMIT}.text ();
     if (takes (row))
-      addNumber (app, nameOf (row), value, row.text + (is_plain ? "" : ", " + range.text ()),
-                 row.group);
+      addNumber (app, nameOf (row), value, row.text + (is_plain ? "" : ", " + range.text ()))
+          ->group (row.group);
   }
   template <typename Enum, std::size_t N>
   void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
   {
     if (takes (row))
-      addChoice (app, nameOf (row), value, choices, row.text, row.group);
+      addChoice (app, nameOf (row), value, choices, row.text)->group (row.group);
   }
   void operator() (const OptionRow& row, bool& value) { (*this) (row, value, SWITCH_CHOICES); }
   void operator() (const OptionRow& row, HoleOptions& holes, LengthUnit unit)
@@ -125,7 +95,7 @@ struct TableOptions
       return parseNumber (word, holes.largest_hole) ? "" : "is not a number";
     };
     if (takes (row))
-      addParsed (app, nameOf (row), parse, row.text, "X", row.group);
+      addParsed (app, nameOf (row), parse, row.text, "X")->group (row.group);
   }
   void operator() (const OptionRow& row, ViewOptions& view)
   {
@@ -139,7 +109,8 @@ struct TableOptions
                  : "is neither auto, none, nor three numbers, such as 0,0,1.5";
     };
     if (takes (row))
-      addParsed (app, nameOf (row), parse, row.text, "X,Y,Z, auto or none (auto)", row.group);
+      addParsed (app, nameOf (row), parse, row.text, "X,Y,Z, auto or none (auto)")
+          ->group (row.group);
   }
 
   // "-k,--neighbors"
@@ -153,92 +124,108 @@ void
 addGeneral (CLI::App& app, CommandLine& line)
 {
   addLimitAndCoordinates (app, line);
-  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line")->group (GENERAL);
-  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json")
-      ->group (GENERAL);
+  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line");
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json");
   app.add_flag ("-v,--verbose", line.verbose,
                 "print all warnings, and the decisions that are not sure")
-      ->group (GENERAL)
       ->excludes ("--quiet");
   app.add_flag ("--strict", line.strict,
-                "write no mesh if it is poor, or if points are in no triangle")
-      ->group (GENERAL);
+                "write no mesh if it is poor, or if points are in no triangle");
+}
+
+void
+addFiles (CLI::App& app, CommandLine& line)
+{
+  beginGroup (app, "Files");
+  addPath (app, "INPUT", line.input,
+           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", " ")
+      ->required ();
+  addPath (app, "OUTPUT", line.output,
+           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", " ")
+      ->required ();
+  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
+             "format of INPUT; auto: that of its extension; xyz: text with a point in each line");
+  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
+             "format of OUTPUT; auto: that of its extension");
+  addOutputs (app, line);
+  addPath (app, "--html", line.html,
+           "write the report as a page for a browser: figures, findings and the mesh, which turns");
+  addNumber (app, "--page-triangles", line.shown_triangles,
+             "most triangles that the page shows; in larger meshes, vertices are joined");
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc");
+  app.add_flag (
+      "--uv", line.texture_coordinates,
+      "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk");
+  addPath (app, "--texture", line.texture,
+           "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
+           "its .mtl");
+  app.add_option ("--texture-size", line.texture_size,
+                  "side of the texture in pixels, 16 to 16384; by default a power of two, two "
+                  "pixels for an edge")
+      ->option_text ("N")
+      ->check (CLI::Range (16, 16384));
 }
 
 } // namespace
+
+CLI::Option*
+addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
+           const std::string& kind)
+{
+  const auto take = [long_name = name.substr (name.find (',') + 1),
+                     parse] (const std::string& word) {
+    if (const std::string cause = parse (word); !cause.empty ())
+      throw CLI::ValidationError (long_name, "'" + word + "' " + cause);
+  };
+  return app.add_option_function<std::string> (name, take, text)->option_text (kind);
+}
+
+CLI::Option*
+addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
+         const std::string& description, const char* kind)
+{
+  const auto take = [&path] (const std::string& word) {
+    path = word;
+    return "";
+  };
+  return addParsed (app, name, take, description, kind);
+}
+
+std::string
+toolName (std::string name)
+{
+  std::replace (name.begin (), name.end (), '_', '-');
+  return "--" + name;
+}
 
 void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes)
 {
   visitOptions (line.options, TableOptions{app, takes});
+  beginGroup (app, option_group::NEIGHBORHOODS);
   addChoice (
       app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,
-      "take the normals of the input for tangent planes, and, with --facing auto, for the front",
-      option_group::NEIGHBORHOODS);
+      "take the normals of the input for tangent planes, and, with --facing auto, for the front");
   if (app.get_option_no_throw ("--largest-hole") != nullptr)
     app.get_option ("--largest-hole")->excludes (app.get_option ("--largest-hole-length"));
 }
 
-namespace {
-void
-addFiles (CLI::App& app, CommandLine& line)
-{
-  const std::string files = "Files";
-  addPath (app, "INPUT", line.input,
-           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", files,
-           " ")
-      ->required ();
-  addPath (app, "OUTPUT", line.output,
-           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", files,
-           " ")
-      ->required ();
-  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
-             "format of INPUT; auto: that of its extension; xyz: text with a point in each line",
-             files);
-  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
-             "format of OUTPUT; auto: that of its extension", files);
-  addOutputs (app, line);
-  addPath (app, "--html", line.html,
-           "write the report as a page for a browser: figures, findings and the mesh, which turns",
-           OUTPUT_GROUP);
-  addNumber (app, "--page-triangles", line.shown_triangles,
-             "most triangles that the page shows; in larger meshes, vertices are joined",
-             OUTPUT_GROUP);
-  addPath (app, "--parameterization", line.parameterization,
-           "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc",
-           OUTPUT_GROUP);
-  app.add_flag (
-         "--uv", line.texture_coordinates,
-         "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk")
-      ->group (OUTPUT_GROUP);
-  addPath (app, "--texture", line.texture,
-           "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
-           "its .mtl",
-           OUTPUT_GROUP);
-  app.add_option ("--texture-size", line.texture_size,
-                  "side of the texture in pixels, 16 to 16384; by default a power of two, two "
-                  "pixels for an edge")
-      ->option_text ("N")
-      ->check (CLI::Range (16, 16384))
-      ->group (OUTPUT_GROUP);
-}
-
-} // namespace
-
 void
 addOutputs (CLI::App& app, CommandLine& line)
 {
+  beginGroup (app, OUTPUT_GROUP);
   app.add_flag (
-         "--normals", line.compute_normals,
-         "give the vertices normals, made from the triangles; those of the input are replaced")
-      ->group (OUTPUT_GROUP);
-  addPath (app, "--report", line.report, "write a report on the run as JSON", OUTPUT_GROUP);
+      "--normals", line.compute_normals,
+      "give the vertices normals, made from the triangles; those of the input are replaced");
+  addPath (app, "--report", line.report, "write a report on the run as JSON");
 }
 
 void
 addLimitAndCoordinates (CLI::App& app, CommandLine& line)
 {
+  beginGroup (app, GENERAL);
   const auto parseLimit = [&line] (const std::string& word) -> std::string {
     if (!parseSize (word, line.max_memory))
       return "is not a size, such as 500M or 2G";
@@ -249,11 +236,11 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
   addParsed (app, "--max-memory", parseLimit,
              "keep the memory in use near this, in bytes; arrays that are not in use are kept on "
              "disk; not for discs",
-             "SIZE (no limit)", GENERAL);
+             "SIZE (no limit)");
   addPath (app, "--scratch", line.scratch,
            "--max-memory: folder where the arrays are kept; these files have no names and end with "
            "the run",
-           GENERAL, "FOLDER (that of OUTPUT)");
+           "FOLDER (that of OUTPUT)");
   const auto parseShift = [&line] (const std::string& word) {
     line.auto_shift = word == "auto";
     line.shift = parsePlace (word);
@@ -264,7 +251,7 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
   addParsed (app, "--shift", parseShift,
              "origin to subtract from all coordinates, where they are too far from zero for 32 "
              "bits; auto: the rounded centre of the points, if they are so far",
-             "X,Y,Z or auto (none)", GENERAL);
+             "X,Y,Z or auto (none)");
   const auto parseColumns = [&line] (const std::string& word) {
     const std::optional<Eigen::Vector3d> numbers = parsePlace (word);
     for (Eigen::Index axis = 0; numbers && axis < 3; ++axis)
@@ -278,7 +265,7 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
   addParsed (app, "--columns", parseColumns,
              "columns of x, y and z in text with a point in each line, from 1; by default those "
              "that the first line names, or the first three",
-             "X,Y,Z", GENERAL);
+             "X,Y,Z");
   const auto parseClasses = [&line] (const std::string& word) {
     std::stringstream words (word);
     for (std::string one; std::getline (words, one, ',');)
@@ -289,11 +276,10 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
   addParsed (app, "--classes", parseClasses,
              "classes of an airborne scan that are taken, such as 2,6 for ground and buildings; by "
              "default all but those of noise, 7 and 18. Withheld points are never taken",
-             "N,N,...", GENERAL);
+             "N,N,...");
   addChoice (app, "--precision", line.precision, PRECISION_CHOICES,
              "precision of coordinates in outputs; auto: single, with --shift auto for doubles. "
-             "PCL reads doubles of a .ply as 0",
-             GENERAL);
+             "PCL reads doubles of a .ply as 0");
 }
 
 void
@@ -302,10 +288,10 @@ addOptions (CLI::App& app, CommandLine& line)
   prepareApp (app, DESCRIPTION, FOOTER);
   addTableOptions (app, line, [] (const OptionRow&) { return true; });
   addGeneral (app, line);
+  beginGroup (app, option_group::BOUNDARY);
   addPath (app, "--loop", line.loop,
            "read the boundary loop from this text file: indices of points, from 0, in order; makes "
-           "a disc",
-           option_group::BOUNDARY);
+           "a disc");
   addFiles (app, line);
 }
 
@@ -317,10 +303,10 @@ prepareApp (CLI::App& app, const char* description, const char* footer)
   app.get_formatter ()->column_width (NAME_COLUMN);
   app.get_formatter ()->label ("Positionals", "Arguments");
   app.footer (footer);
-  app.set_help_flag ("-h,--help", "print this and exit")->group (GENERAL);
+  beginGroup (app, GENERAL);
+  app.set_help_flag ("-h,--help", "print this and exit");
   app.set_version_flag ("--version", app.get_name () + " " PCL_FLOATER_VERSION,
-                        "print the version and exit")
-      ->group (GENERAL);
+                        "print the version and exit");
 }
 
 } // namespace pcl::floater

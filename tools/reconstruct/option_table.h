@@ -20,7 +20,15 @@ std::string
 didYouMean (const std::string& word, const std::vector<std::string>& words);
 
 // Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
-// where it is told, shows the default in the help, and refuses a malformed word by name.
+// where it is told, shows the default in the help, and refuses a malformed word by name. Each is in
+// the group that beginGroup () has named last.
+
+/// The next options are below this heading of the help.
+inline void
+beginGroup (CLI::App& app, const std::string& group)
+{
+  app.option_defaults ()->group (group);
+}
 
 /// Takes the word of an option.
 /// \return what is wrong with it, such as "is not a number"; empty if nothing is
@@ -30,13 +38,13 @@ using ParseWord = std::function<std::string (const std::string& word)>;
 /// \param kind of the value, and its default, for the help
 CLI::Option*
 addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
-           const std::string& kind, const std::string& group);
+           const std::string& kind);
 
 /// An option whose value is one of several words.
 template <typename Enum, std::size_t N>
-void
+CLI::Option*
 addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<Enum, N>& choices,
-           const std::string& description, const std::string& group)
+           const std::string& description)
 {
   std::string words;
   std::vector<std::string> known;
@@ -52,15 +60,14 @@ addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<En
       }
     return "is none of: " + words + didYouMean (word, known);
   };
-  addParsed (app, name, choose, description + ":\n" + words,
-             std::string ("NAME (") + choiceName (choices, value) + ")", group);
+  return addParsed (app, name, choose, description + ":\n" + words,
+                    std::string ("NAME (") + choiceName (choices, value) + ")");
 }
 
 /// An option whose value is a number. All of the word has to be one.
 template <typename Number>
 CLI::Option*
-addNumber (CLI::App& app, const std::string& name, Number& value, const std::string& description,
-           const std::string& group)
+addNumber (CLI::App& app, const std::string& name, Number& value, const std::string& description)
 {
   const auto parse = [&value] (const std::string& word) {
     return parseNumber (word, value)    ? ""
@@ -69,13 +76,13 @@ addNumber (CLI::App& app, const std::string& name, Number& value, const std::str
   };
   std::ostringstream text;
   text << (std::is_integral_v<Number> ? "N (" : "X (") << value << ")";
-  return addParsed (app, name, parse, description, text.str (), group);
+  return addParsed (app, name, parse, description, text.str ());
 }
 
 /// An option whose value is the path of a file or a folder.
 CLI::Option*
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
-         const std::string& description, const std::string& group, const char* kind = "FILE");
+         const std::string& description, const char* kind = "FILE");
 
 /// The name that the tools have for an option of the table: "--kept-loops" of "kept_loops".
 std::string

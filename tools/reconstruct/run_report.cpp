@@ -27,106 +27,6 @@ outcomeName (const Report& report, const RunFigures& run)
   return run.is_refused ? "REFUSED" : statusName (report.status);
 }
 
-} // namespace
-
-std::string
-dump (const nlohmann::ordered_json& json)
-{
-  constexpr int ONE_LINE = -1;
-  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
-}
-
-std::size_t
-peakMemory ()
-{
-  constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
-  rusage usage{};
-  return ::getrusage (RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t> (usage.ru_maxrss) * UNIT
-                                                : 0;
-}
-
-nlohmann::ordered_json
-reportJson (const CommandLine& line, const Report& report, const RunFigures& run)
-{
-  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
-  Json all = {{"tool", "pcl_floater_reconstruct"},
-              {"version", PCL_FLOATER_VERSION},
-              {"input",
-               {{"file", fileName (line.input)},
-                {"points", run.input_points},
-                {"coordinates", run.single_precision ? "float" : "double"},
-                {"fields", run.input_fields},
-                {"notes", run.notes}}},
-              {"shift", run.shift},
-              {"output", is_ok ? Json{{"file", fileName (line.output)},
-                                      {"coordinates", run.writes_single ? "float" : "double"},
-                                      {"vertices", run.vertices},
-                                      {"normals", line.compute_normals},
-                                      {"triangles", report.statistics.triangles},
-                                      {"parameterization", fileName (line.parameterization)}}
-                               : Json ()},
-              {"options", optionsJson (line.options, line.use_input_normals)},
-              {"strict", line.strict},
-              {"status", outcomeName (report, run)},
-              {"message", report.message},
-              {"warnings", report.warnings}};
-  all.update (resultJson (report));
-  all["seconds"] = {{"reading", run.read_seconds}};
-  all["seconds"].update (secondsJson (report.statistics));
-  all["seconds"]["reconstruction"] = run.reconstruct_seconds;
-  if (run.texture.status != RunStatus::NOT_RUN)
-    all["seconds"]["texture"] = run.texture_seconds;
-  all["texture"] = nullptr;
-  if (const TextureCoordinates& texture = run.texture;
-      is_ok && texture.status == RunStatus::SUCCESS)
-    all["texture"] = {
-        {"file", fileName (line.texture)}, {"charts", texture.chart_count},
-        {"stretch", texture.stretch},      {"largest_stretch", texture.largest_stretch},
-        {"area_used", texture.area_used},  {"seam_length", texture.seam_length},
-        {"gutter", texture.gutter},        {"flipped", texture.flipped}};
-  all["peak_memory_bytes"] = peakMemory ();
-  all["memory_limit"] = nullptr;
-  if (line.max_memory > 0)
-    all["memory_limit"] = {{"bytes", line.max_memory},
-                           {"scratch", fileName (line.scratch)},
-                           {"scratch_peak_bytes", scratchUse ().peak}};
-  all["loop"] = report.loop;
-  all["unused"] = report.unused;
-  all["outliers"] = report.outliers;
-  all["scatter"] = report.scatter;
-  all["non_finite"] = report.non_finite;
-  all["duplicates"] = report.duplicates;
-  return all;
-}
-
-std::string
-reportText (const CommandLine& line, const Report& report, const RunFigures& run)
-{
-  const Json all = reportJson (line, report, run);
-  std::string text;
-  for (const auto& [key, value] : all.items ())
-    text += (text.empty () ? "{\n  " : ",\n  ") + dump (key) + ": " + dump (value);
-  return text + "\n}\n";
-}
-
-void
-reportMemory (const CommandLine& line, Report& report)
-{
-  if (const std::string failure = scratchFailure ();
-      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
-    report.message = failure;
-  if (line.max_memory == 0)
-    return;
-  if (liesInMemory (line.scratch))
-    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
-                               "' is in memory itself; use --scratch to name one on a disk");
-  const std::size_t peak = peakMemory ();
-  if (peak > line.max_memory)
-    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
-                               ", above --max-memory " + formatSize (line.max_memory));
-}
-
-namespace {
 // The most important figures as a JSON object on one line, without newline.
 std::string
 summaryLine (const CommandLine& line, const Report& report, const RunFigures& run)
@@ -283,6 +183,103 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
 }
 
 } // namespace
+
+std::string
+dump (const nlohmann::ordered_json& json)
+{
+  constexpr int ONE_LINE = -1;
+  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
+}
+
+std::size_t
+peakMemory ()
+{
+  constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
+  rusage usage{};
+  return ::getrusage (RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t> (usage.ru_maxrss) * UNIT
+                                                : 0;
+}
+
+nlohmann::ordered_json
+reportJson (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const bool is_ok = report.status == RunStatus::SUCCESS && !run.is_refused;
+  Json all = {{"tool", "pcl_floater_reconstruct"},
+              {"version", PCL_FLOATER_VERSION},
+              {"input",
+               {{"file", fileName (line.input)},
+                {"points", run.input_points},
+                {"coordinates", run.single_precision ? "float" : "double"},
+                {"fields", run.input_fields},
+                {"notes", run.notes}}},
+              {"shift", run.shift},
+              {"output", is_ok ? Json{{"file", fileName (line.output)},
+                                      {"coordinates", run.writes_single ? "float" : "double"},
+                                      {"vertices", run.vertices},
+                                      {"normals", line.compute_normals},
+                                      {"triangles", report.statistics.triangles},
+                                      {"parameterization", fileName (line.parameterization)}}
+                               : Json ()},
+              {"options", optionsJson (line.options, line.use_input_normals)},
+              {"strict", line.strict},
+              {"status", outcomeName (report, run)},
+              {"message", report.message},
+              {"warnings", report.warnings}};
+  all.update (resultJson (report));
+  all["seconds"] = {{"reading", run.read_seconds}};
+  all["seconds"].update (secondsJson (report.statistics));
+  all["seconds"]["reconstruction"] = run.reconstruct_seconds;
+  if (run.texture.status != RunStatus::NOT_RUN)
+    all["seconds"]["texture"] = run.texture_seconds;
+  all["texture"] = nullptr;
+  if (const TextureCoordinates& texture = run.texture;
+      is_ok && texture.status == RunStatus::SUCCESS)
+    all["texture"] = {
+        {"file", fileName (line.texture)}, {"charts", texture.chart_count},
+        {"stretch", texture.stretch},      {"largest_stretch", texture.largest_stretch},
+        {"area_used", texture.area_used},  {"seam_length", texture.seam_length},
+        {"gutter", texture.gutter},        {"flipped", texture.flipped}};
+  all["peak_memory_bytes"] = peakMemory ();
+  all["memory_limit"] = nullptr;
+  if (line.max_memory > 0)
+    all["memory_limit"] = {{"bytes", line.max_memory},
+                           {"scratch", fileName (line.scratch)},
+                           {"scratch_peak_bytes", scratchUse ().peak}};
+  all["loop"] = report.loop;
+  all["unused"] = report.unused;
+  all["outliers"] = report.outliers;
+  all["scatter"] = report.scatter;
+  all["non_finite"] = report.non_finite;
+  all["duplicates"] = report.duplicates;
+  return all;
+}
+
+std::string
+reportText (const CommandLine& line, const Report& report, const RunFigures& run)
+{
+  const Json all = reportJson (line, report, run);
+  std::string text;
+  for (const auto& [key, value] : all.items ())
+    text += (text.empty () ? "{\n  " : ",\n  ") + dump (key) + ": " + dump (value);
+  return text + "\n}\n";
+}
+
+void
+reportMemory (const CommandLine& line, Report& report)
+{
+  if (const std::string failure = scratchFailure ();
+      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
+    report.message = failure;
+  if (line.max_memory == 0)
+    return;
+  if (liesInMemory (line.scratch))
+    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
+                               "' is in memory itself; use --scratch to name one on a disk");
+  const std::size_t peak = peakMemory ();
+  if (peak > line.max_memory)
+    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
+                               ", above --max-memory " + formatSize (line.max_memory));
+}
 
 void
 printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures)

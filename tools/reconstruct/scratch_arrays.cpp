@@ -8,7 +8,11 @@
 #include "atomic_file.h"
 #include "text_scanner.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/mman.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -267,6 +271,49 @@ leastMemory (std::size_t points, double kept_per_point)
 {
   return static_cast<std::size_t> ((FIXED + kept_per_point * static_cast<double> (points)) /
                                    MOST_RESIDENT);
+}
+
+void
+prepareHeap (bool in_huge_pages)
+{
+#ifdef __GLIBC__
+  constexpr int THRESHOLD = 8 << 20, IN_HUGE_PAGES = 64 << 20;
+  mallopt (M_MMAP_THRESHOLD, THRESHOLD);
+  mallopt (M_TRIM_THRESHOLD, 4 * IN_HUGE_PAGES);
+  if (in_huge_pages) {
+    constexpr std::uintptr_t MOST = 2 * static_cast<std::uintptr_t> (IN_HUGE_PAGES);
+    constexpr std::uintptr_t HUGE_PAGE = std::uintptr_t{1} << 21U;
+    mallopt (M_TOP_PAD, IN_HUGE_PAGES);
+    void* const begin = std::malloc (THRESHOLD / 2); // grows the heap
+    const auto first = (reinterpret_cast<std::uintptr_t> (begin) / HUGE_PAGE + 1) * HUGE_PAGE;
+    const auto last = reinterpret_cast<std::uintptr_t> (::sbrk (0));
+    if (first < last && last - first < MOST) // else it is no heap of glibc
+      ::madvise (reinterpret_cast<void*> (first), last - first, MADV_HUGEPAGE);
+    std::free (begin);
+  }
+  mallopt (M_TOP_PAD, THRESHOLD / 2);
+#else
+  (void)in_huge_pages;
+#endif
+}
+
+void
+giveFreedBack ()
+{
+#ifdef __GLIBC__
+  mallopt (M_MMAP_THRESHOLD, 1 << 20);
+  malloc_trim (0);
+#endif
+}
+
+void
+endBlasThreads ()
+{
+  // What OpenBLAS itself calls before a fork.
+  using Shutdown = int (*) ();
+  const auto shutdown = reinterpret_cast<Shutdown> (dlsym (RTLD_DEFAULT, "blas_thread_shutdown_"));
+  if (shutdown != nullptr)
+    shutdown ();
 }
 
 } // namespace pcl::floater

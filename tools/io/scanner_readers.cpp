@@ -1,9 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What scanners write.
 // ASPRS LAS 1.0 to 1.4, from its specification (LAS Specification 1.4 - R15, 2019).
+// PTX, the text that terrestrial scanners export. For each scan: the number of columns and of rows,
+// the place and the axes of the scanner, a matrix that takes a row (x y z 1) to the common frame, and
+// a line for each pixel, column by column: x y z intensity, and red green blue if there are colours.
 #include "cloud_reader.h"
+#include "text_scanner.h"
+
+#include <Eigen/Geometry>
 
 #include <cmath>
+#include <sstream>
 
 namespace pcl::floater {
 namespace {
@@ -129,24 +137,16 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
 {
   struct Bits
   {
-    const char* name;
     std::size_t byte, first, count;
   };
-  constexpr std::array<Bits, 5> SHORT{{{"return_number", 0, 0, 3},
-                                       {"number_of_returns", 0, 3, 3},
-                                       {"classification", 1, 0, 5},
-                                       {"synthetic", 1, 5, 1},
-                                       {"withheld", 1, 7, 1}}};
-  constexpr std::array<Bits, 5> LONG{{{"return_number", 0, 0, 4},
-                                      {"number_of_returns", 0, 4, 4},
-                                      {"classification", 2, 0, 8},
-                                      {"synthetic", 1, 0, 1},
-                                      {"withheld", 1, 2, 1}}};
-  const auto& all = header.is_long ? LONG : SHORT;
-  std::vector<Field> unpacked;
-  unpacked.reserve (all.size ());
-  for (const Bits& bits : all)
-    unpacked.push_back ({bits.name, ScalarType::UINT8});
+  constexpr std::array<std::array<Bits, 5>, 2> BITS{
+      {{{{0, 0, 3}, {0, 3, 3}, {1, 0, 5}, {1, 5, 1}, {1, 7, 1}}},
+       {{{0, 0, 4}, {0, 4, 4}, {2, 0, 8}, {1, 0, 1}, {1, 2, 1}}}}};
+  const auto& all = BITS[header.is_long ? 1 : 0];
+  std::vector<Field> unpacked{
+      {"return_number"}, {"number_of_returns"}, {"classification"}, {"synthetic"}, {"withheld"}};
+  for (Field& field : unpacked)
+    field.type = ScalarType::UINT8;
   const auto count = static_cast<std::size_t> (header.count);
   char* to = allocateRows (pointersTo (unpacked), count).get (); // which the fields keep
   const char* from = file.view ().data () + header.points_at + BITS_AT;
@@ -157,6 +157,77 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
   fields.insert (fields.end (), unpacked.begin (), unpacked.end ());
 }
 
+/// What the file says of all pixels, one after the other.
+struct PtxPixels
+{
+  std::vector<double> coordinates;
+  std::vector<float> intensities;
+  std::vector<std::uint8_t> colors;
+  std::vector<std::uint16_t> scans;
+  std::vector<bool> lack_return;
+};
+
+template <std::size_t N>
+std::array<double, N>
+readLine (TextScanner& scanner)
+{
+  if (!scanner.nextFilledLine ())
+    throw ReadError ("it ends within a scan; it is truncated");
+  std::array<double, N> numbers{};
+  for (double& number : numbers)
+    number = scanner.number<double> ();
+  return numbers;
+}
+
+std::size_t
+readCount (TextScanner& scanner, std::size_t most)
+{
+  const double count = readLine<1> (scanner)[0];
+  if (!(count >= 1.0 && count <= static_cast<double> (most)))
+    scanner.fail ("this is no number of the rows or columns of a scan in this file");
+  return static_cast<std::size_t> (count);
+}
+
+void
+readPixel (TextScanner& scanner, const Eigen::Matrix<double, 4, 3>& pose, std::size_t scan,
+           PtxPixels& pixels)
+{
+  const std::array<double, 3> at = readLine<3> (scanner);
+  const Eigen::RowVector3d local (at[0], at[1], at[2]);
+  const Eigen::RowVector3d place = local * pose.topRows<3> () + pose.row (3);
+  pixels.coordinates.insert (pixels.coordinates.end (), place.begin (), place.end ());
+  pixels.lack_return.push_back (local.isZero (0.0));
+  pixels.intensities.push_back (scanner.hasWord () ? scanner.number<float> () : 0.0F);
+  pixels.scans.push_back (static_cast<std::uint16_t> (scan));
+  while (scanner.hasWord ())
+    pixels.colors.push_back (scanner.number<std::uint8_t> ());
+}
+
+/// Normals of a scan, towards its sensor, from the pixels before and behind in either direction; zero
+/// where one is missing.
+void
+addNormals (const PtxPixels& pixels, std::size_t first, std::size_t columns, std::size_t rows,
+            const Eigen::RowVector3d& sensor, std::vector<Eigen::Vector3f>& normals)
+{
+  const auto at = [&pixels] (std::size_t pixel) {
+    return Eigen::Vector3d (pixels.coordinates.data () + 3 * pixel);
+  };
+  for (std::size_t i = 0; i < columns * rows; ++i) {
+    Eigen::Vector3f& normal = normals.emplace_back (0.0F, 0.0F, 0.0F);
+    const std::size_t column = i / rows, row = i % rows, pixel = first + i;
+    if (column == 0 || column + 1 == columns || row == 0 || row + 1 == rows)
+      continue;
+    const auto& lack = pixels.lack_return;
+    if (lack[pixel] || lack[pixel - 1] || lack[pixel + 1] || lack[pixel - rows] ||
+        lack[pixel + rows])
+      continue;
+    const Eigen::Vector3d across =
+        (at (pixel + 1) - at (pixel - 1)).cross (at (pixel + rows) - at (pixel - rows));
+    const double side = across.dot (sensor.transpose () - at (pixel));
+    normal = ((side < 0.0 ? -1.0 : 1.0) * across.normalized ()).cast<float> ();
+  }
+}
+
 } // namespace
 
 Cloud
@@ -164,8 +235,6 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
 {
   const std::string_view bytes = file.view ();
   const LasHeader header = readHeader (bytes);
-  if (header.count == 0)
-    throw ReadError ("it has no points");
   requireRoom ("points", header.count, header.record_size, bytes.size () - header.points_at);
   std::vector<Field> fields;
   const auto add = [&] (const char* name, ScalarType type, std::size_t at) -> Field& {
@@ -201,6 +270,81 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   constexpr double FINER = 1e3;
   cloud.may_be_degrees = FINER * std::abs (header.scales[0]) <= std::abs (header.scales[2]);
   return cloud;
+}
+
+Cloud
+parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
+{
+  TextScanner scanner (file.view ());
+  PtxPixels pixels;
+  std::vector<Eigen::Vector3f> normals;
+  std::size_t scan = 0;
+  std::ostringstream scans;
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero ();
+  while (!scanner.restIsBlank ()) {
+    const std::size_t columns = readCount (scanner, file.view ().size ());
+    const std::size_t rows = readCount (scanner, file.view ().size () / columns);
+    for (int line = 0; line < 4; ++line) // of the scanner, as the matrix has them
+      readLine<3> (scanner);
+    Eigen::Matrix<double, 4, 3> pose;
+    for (Eigen::Index row = 0; row < 4; ++row) {
+      const std::array<double, 4> numbers = readLine<4> (scanner);
+      pose.row (row) << numbers[0], numbers[1], numbers[2];
+    }
+    const std::size_t first = pixels.lack_return.size ();
+    for (std::size_t pixel = 0; pixel < rows * columns; ++pixel)
+      readPixel (scanner, pose, scan, pixels);
+    addNormals (pixels, first, columns, rows, pose.row (3), normals);
+    sensor = pose.row (3);
+    if (++scan > std::size_t{1} << 16U)
+      throw ReadError ("it has more than 65536 scans");
+    scans << (scan > 1 ? ", " : "") << columns << " x " << rows << " pixels from (" << pose (3, 0)
+          << ", " << pose (3, 1) << ", " << pose (3, 2) << ")";
+  }
+  const std::size_t size = pixels.lack_return.size ();
+  std::vector<Field> fields;
+  std::vector<std::string> warnings;
+  addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (pixels.coordinates), fields);
+  addColumns ({"intensity"}, ScalarType::FLOAT32, std::move (pixels.intensities), fields);
+  if (pixels.colors.size () == 3 * size)
+    addColumns ({"red", "green", "blue"}, ScalarType::UINT8, std::move (pixels.colors), fields);
+  else if (!pixels.colors.empty ())
+    warnings.emplace_back ("not all points have a colour; colours were left out");
+  if (scan > 1)
+    addColumns ({"scan"}, ScalarType::UINT16, std::move (pixels.scans), fields);
+  Cloud cloud = makeCloud (std::move (fields), size, std::move (warnings));
+  cloud.notes.push_back (counted (scan, "scan") + ": " + scans.str ());
+  if (scan == 1)
+    Eigen::Map<Eigen::Vector3d> (cloud.sensor_origin.data ()) = sensor;
+  else
+    cloud.towards_sensors = std::move (normals);
+  leaveOut (cloud, pixels.lack_return, "without a return");
+  return cloud;
+}
+
+Cloud
+parseBin (const FileBytes& file, const ReadOptions& /*options*/)
+{
+  constexpr double FARTHEST = 1e6; // metres
+  constexpr double MOST_RINGS = 256.0;
+  const std::size_t bytes = file.view ().size ();
+  for (const std::size_t count : {std::size_t{5}, std::size_t{4}}) {
+    std::vector<Field> fields{{"x"}, {"y"}, {"z"}, {"intensity"}, {"ring"}}; // floats
+    fields.resize (count);
+    const std::size_t points = bytes / (count * sizeof (float));
+    viewRows (pointersTo (fields), file.at (0), ByteOrder::LITTLE);
+    bool fits = points > 0 && bytes == points * count * sizeof (float);
+    for (std::size_t p = 0; p < points && fits; ++p) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        fits &= std::abs (fields[axis].asDouble (p)) < FARTHEST;
+      const double ring = fields.back ().asDouble (p);
+      fits &= count == 4 || (ring >= 0.0 && ring < MOST_RINGS && ring == std::floor (ring));
+    }
+    if (fits)
+      return makeCloud (std::move (fields), points);
+  }
+  throw ReadError ("it does not hold four floats for each point, x, y, z and intensity, as KITTI's "
+                   "files do, nor five, with a ring");
 }
 
 } // namespace pcl::floater
