@@ -11,7 +11,6 @@
 #include "points/points.h"
 #include "store.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 

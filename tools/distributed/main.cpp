@@ -9,7 +9,6 @@
 #include "options/check_options.h"
 #include "scratch_arrays.h"
 
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <utility>
@@ -308,12 +307,11 @@ runAll (const Job& job, FolderStore& folder)
     return is_first ? workOnSteps (job, folder, has_others ? &dealer : nullptr)
                     : workForOthers (job, folder, processes);
   });
-  std::array<char, 64> text{};
   if (is_first && has_others) {
     dealer.end (code);
-    std::snprintf (text.data (), text.size (), "messages: %.1f MB",
-                   static_cast<double> (processes.exchangedBytes ()) / 1e6);
-    say (job, text.data ());
+    if (!job.line.quiet)
+      std::fprintf (stderr, "messages: %.1f MB\n",
+                    static_cast<double> (processes.exchangedBytes ()) / 1e6);
   }
   constexpr std::size_t MEGABYTE = 1'000'000;
   if (code == EXIT_OK)

@@ -185,10 +185,11 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
 void
 requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
 {
+  const std::vector<InputFile> inputs = describeInputs (job);
   if (plan.parameters != parametersText (job))
     throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
                      "'; give the same, or name another work folder");
-  if (planId (describeInputs (job), plan.parameters, job.blocks, plan.arguments) != plan.id)
+  if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
     throw WorkError ("the input files or the number of blocks are not those of '" +
                      store.describe (MANIFEST) + "'; give the same, or name another work folder");
 }

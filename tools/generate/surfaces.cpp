@@ -3,9 +3,9 @@
 #include "surfaces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace pcl::floater {
 namespace {

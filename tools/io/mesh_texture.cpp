@@ -5,7 +5,6 @@
 #include <lodepng.h>
 
 #include <cmath>
-#include <limits>
 #include <new>
 
 namespace pcl::floater {
@@ -64,36 +63,6 @@ spread (ColourImage& image, std::vector<std::uint8_t>& is_painted)
 }
 
 } // namespace
-
-Cloud
-doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles)
-{
-  constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max ();
-  const std::size_t points = cloud.size ();
-  std::vector<std::size_t> rows (points);
-  for (std::size_t p = 0; p < points; ++p)
-    rows[p] = cloud.row (p);
-  std::vector<Eigen::Vector2f> places (points, Eigen::Vector2f (-1.0F, -1.0F));
-  std::vector<std::uint32_t> number (texture.coordinates.size (), NONE); // of each coordinate
-  for (std::size_t c = 0; c < number.size (); ++c) {
-    const std::uint32_t point = texture.points[c];
-    if (c == 0 || texture.points[c - 1] != point)
-      number[c] = point;
-    else {
-      number[c] = static_cast<std::uint32_t> (rows.size ());
-      rows.push_back (rows[point]);
-      places.emplace_back ();
-    }
-    places[number[c]] = texture.coordinates[c];
-  }
-  for (std::size_t i = 0; i < triangles.size (); ++i)
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      triangles[i][corner] = number[texture.corners[i][corner]];
-
-  Cloud doubled = copyRows (cloud, rows);
-  replaceColumns ({"s", "t"}, ScalarType::FLOAT32, std::move (places), doubled.fields);
-  return doubled;
-}
 
 ColourImage
 bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordinates& texture,

@@ -61,12 +61,6 @@ pngOf (const ColourImage& image);
 ColourImage
 parsePng (const FileBytes& file);
 
-/// The cloud with as many rows for each point as it has texture coordinates, and these as the
-/// fields s and t, of 32 bits: the first of a point in its own row, the others after all points. A
-/// point without one has -1. All fields are copied. Triangles are renumbered.
-Cloud
-doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles);
-
 /// Paints every triangle with the colours of its corners, which are averaged linearly in between.
 /// Pixels that no triangle covers get the colour of the nearest that one does, so that nothing
 /// shows at seams, at any level of a mipmap. O(pixels).

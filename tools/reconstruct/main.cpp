@@ -299,37 +299,32 @@ run (CommandLine line)
   return exitCode (report, figures);
 }
 
-int
-runTool (int argc, char** argv)
-{
-  handleSignals (EXIT_INPUT);
-  CommandLine line;
-  const std::optional<int> done = parseCommandLine (argc, argv, line);
-  return done ? *done : run (std::move (line));
-}
-
 } // namespace
 } // namespace pcl::floater
 
 int
 main (int argc, char** argv)
 {
+  using namespace pcl::floater;
   rlimit addresses{};
   const bool may_lack_memory =
       ::getrlimit (RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
-  pcl::floater::prepareHeap (!may_lack_memory);
+  prepareHeap (!may_lack_memory);
   if (!may_lack_memory)
-    pcl::floater::endBlasThreads ();
-  int code = pcl::floater::EXIT_INTERNAL;
+    endBlasThreads ();
+  int code = EXIT_INTERNAL;
   try {
-    code = pcl::floater::guarded ("pcl_floater_reconstruct",
-                                  "use fewer points, or a machine with more",
-                                  [&] { return pcl::floater::runTool (argc, argv); });
+    code = guarded ("pcl_floater_reconstruct", "use fewer points, or a machine with more", [&] {
+      handleSignals (EXIT_INPUT);
+      CommandLine line;
+      const std::optional<int> done = parseCommandLine (argc, argv, line);
+      return done ? *done : run (std::move (line));
+    });
   }
   catch (const std::bad_alloc&) { // while another failure was being told
     std::fputs ("pcl_floater_reconstruct: out of memory\n", stderr);
   }
-  if (code != pcl::floater::EXIT_INTERNAL && !may_lack_memory)
+  if (code != EXIT_INTERNAL && !may_lack_memory)
     return code;
   // A worker thread of OpenBLAS that finds no memory, already when it is started with the program,
   // waits for it for ever. A normal exit would wait for that thread.
