@@ -14,6 +14,16 @@
 
 namespace pcl::floater {
 namespace {
+// Spread of the areas without any viewpoint.
+double
+spreadOfAreas (const std::vector<AreaSample>& samples)
+{
+  std::vector<double> areas;
+  for (const AreaSample& sample : samples)
+    areas.push_back (sample.area);
+  return quartileSpread (areas);
+}
+
 class ViewpointSearch
 {
 public:
@@ -37,15 +47,6 @@ public:
   }
 
   bool hasSamples () const { return samples_.size () >= limits_.samples / 2; }
-
-  // Spread of the areas without any viewpoint.
-  double spreadOfAreas () const
-  {
-    std::vector<double> areas;
-    for (const AreaSample& sample : samples_)
-      areas.push_back (sample.area);
-    return quartileSpread (areas);
-  }
 
   // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
   std::optional<Viewpoint> findAlongRows (const Eigen::Vector3d& across) const
@@ -85,6 +86,10 @@ public:
   {
     std::vector<RatedViewpoint> descents = startingPlaces ();
     std::stable_sort (descents.begin (), descents.end (), isCheaper);
+    // A quarter of the samples gives the spread to twice the error.
+    constexpr double ERROR = 0.12;
+    if (descents.front ().cost > (1.0 + ERROR) * limits_.explained * spreadOfAreas (few_samples_))
+      return {};
     descents = keepApart (descents, 2.0 * cell (), limits_.starts);
     parallelTasks (run_, descents.size (), [&] (std::size_t k) {
       std::vector<double> angles;
@@ -95,7 +100,7 @@ public:
     std::vector<RatedViewpoint> candidates =
         keepApart (descents, 4.0 * SMALLEST_AREA_STEP, descents.size ());
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    const double spread = spreadOfAreas ();
+    const double spread = spreadOfAreas (samples_);
     if (candidates.empty () || candidates.front ().cost > limits_.explained * spread)
       return {};
     const double most = spread - limits_.as_good * (spread - candidates.front ().cost);
@@ -385,7 +390,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   // Noise needs all patches, else a quarter of them does.
   const std::size_t least_share = reason == SearchReason::NOISE ? 1 : 4;
   if (least_share * filled.patches < evidence.patches || !search.hasSamples () ||
-      (reason != SearchReason::NOISE && (search.spreadOfAreas () > limits.even) != for_uneven))
+      (reason != SearchReason::NOISE && (spreadOfAreas (samples) > limits.even) != for_uneven))
     return {};
   return search.find ();
 }
