@@ -49,7 +49,7 @@ struct Plane
 struct Thing
 {
   Eigen::Vector3d place; ///< middle of a ball, foot of an upright post
-  double radius; ///< negative: its inside is seen
+  double radius;         ///< negative: its inside is seen
   bool is_post;
 };
 
