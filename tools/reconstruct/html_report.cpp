@@ -242,8 +242,8 @@ base64 (const std::vector<Number>& numbers)
   std::string bytes (numbers.size () * sizeof (Number), '\0');
   for (std::size_t i = 0; i < numbers.size (); ++i)
     copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i], ByteOrder::LITTLE);
-  namespace iterators = boost::archive::iterators;
-  using Digits = iterators::base64_from_binary<iterators::transform_width<const char*, 6, 8>>;
+  using SixBits = boost::archive::iterators::transform_width<const char*, 6, 8>;
+  using Digits = boost::archive::iterators::base64_from_binary<SixBits>;
   const std::size_t padding = (3 - bytes.size () % 3) % 3;
   bytes.resize (bytes.size () + padding, '\0');
   const char* const end = bytes.data () + bytes.size ();
