@@ -19,6 +19,7 @@ double
 spreadOfAreas (const std::vector<AreaSample>& samples)
 {
   std::vector<double> areas;
+  areas.reserve (samples.size ());
   for (const AreaSample& sample : samples)
     areas.push_back (sample.area);
   return quartileSpread (areas);
