@@ -26,7 +26,8 @@ constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as othe
 
 // Whether stars are open as along the border of a sheet. A square has four times as many points on
 // it as the root of all, and a third of their stars are open: the others reach back. Half a ball has
-// two and a half times as many, and a sixth of their stars. Half of that, nearly.
+// two and a half times as many, and a sixth of their stars: 0.4 times the root. A little more than half
+// of that.
 bool
 isOpen (const Stars& stars)
 {

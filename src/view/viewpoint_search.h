@@ -51,9 +51,10 @@ struct SearchLimits
 
   /// After each of the first three rounds, and after later ones, which hardly change the evidence.
   /// Near the right viewpoint, outlines may hide each other, so that all rays are near others; not
-  /// for parallel rays, nor before the later rounds: there, right viewpoints of 60 scans had up to 0.3 and
-  /// 0.2, a real one 0.9 and 3.2; wrong ones 0.9 and 3.5, or more. After them, right ones had up to 1.5
-  /// and 2.3 in the middle, and below 1 at the end; wrong ones up to 1.5 and 12.
+  /// for parallel rays. In simulated scans, right viewpoints had up to 1.5 and 2.3 in the middle,
+  /// and below 1 at the end; wrong ones up to 1.5 and 12. `early_from_far` also holds for all
+  /// viewpoints just before the later rounds: there, right ones of 60 simulated scans had up to 0.3
+  /// and 0.2, that of a real one 0.9 and 3.2, and wrong ones 0.9 and 3.5 or more.
   EvidenceExcess early{2.0, 100.0}, early_from_far{2.0, 5.0}, late{1.4, 2.0};
 };
 
