@@ -16,7 +16,7 @@ import zlib
 
 import numpy as np
 import pytest
-from conftest import OK, OUTPUT, USAGE
+from conftest import OUTPUT, USAGE
 from distributed import DISTRIBUTED, IS_LONG, STEPS, WORK, Work, flipped, mpirun, ply, terrain_points
 from files import pcd_bytes, sample_of
 
@@ -155,17 +155,16 @@ def test_trimmed_and_by_slurm(work):
 
 
 def test_files_of_blocks_go(work):
-    """Also with messages, and if the join reads the files in part, or not at all."""
-    for processes, options, cloud in [
-            (1, [], work.generate("torus", "--points", 5000)), (2, ["--exchange", "messages"], "cloud.ply"),
-            (1, [], work.generate("torus", "--points", 5000, "--noise", 0.4, name="noise.ply")),
-            (1, [], write_scan(work))]:
+    """Also if the join reads them in part, or not at all."""
+    for processes, cloud in [(2, work.generate("torus", "--points", 5000)),
+                             (1, work.generate("torus", "--points", 5000, "--noise", 0.4, name="noise.ply")),
+                             (1, write_scan(work))]:
         expected = work.reference(cloud)
-        work.expect_same(expected, [cloud], processes, 5, "--free-disk", *options)
+        work.expect_same(expected, [cloud], processes, 5, "--free-disk")
         left = set(work.work_files())
         assert not [file for file in left if file.split(".")[0] in STEPS]
         # The mesh is known, so the next run does not make the files of the blocks again.
-        assert "blocks done" not in work.ok(work.command("--blocks", 5, *options, cloud, "again.ply")).stderr
+        assert "blocks done" not in work.ok(work.command("--blocks", 5, cloud, "again.ply")).stderr
         assert work.read("again.ply") == expected and left == set(work.work_files())
 
 
@@ -219,34 +218,19 @@ def test_killed_and_started_again(work, points, blocks, moments):
     assert known.items() <= {name: inode for name, (_, inode) in work.work_files().items()}.items()
 
 
-def nodes(cloud, *more):
-    """Two nodes: they have no folder in common, and no shared memory."""
-    options = ["--blocks", 5, *more, cloud, "mesh.ply"]
-    return [*mpirun(1, "--mca", "btl", "self,tcp"), DISTRIBUTED, "--work", "work", *options, ":", "-n", 2,
-            DISTRIBUTED, "--work", "/no/such/work", *options]
-
-
 def test_no_common_folder(work):
-    cloud = work.terrain(6000)
-    outcome = work.ok(nodes(cloud, "--exchange", "messages", "--join-threads", 1))
-    assert "stars: 5 blocks done" in outcome.stderr and work.read("mesh.ply") == work.reference(cloud)
-
-
-def test_no_common_folder_and_no_messages(work):
-    outcome = work.do(nodes(work.generate("torus", "--points", 6000)))
-    if outcome.returncode == OK:  # the first process was so fast that it has done all blocks
-        return
-    assert outcome.returncode == WORK and not work.path("mesh.ply").exists()
-    assert "/no/such/work" in outcome.stderr and "--exchange messages" in outcome.stderr
+    options = ["--blocks", 5, work.generate("torus", "--points", 6000), "mesh.ply"]
+    work.expect([*mpirun(1), DISTRIBUTED, "--work", "work", *options, ":", "-n", 2, DISTRIBUTED, "--work", "/no/such/work",
+                 *options], WORK, "/no/such/work", "is not there for all processes")
+    assert not work.path("mesh.ply").exists()
 
 
 def test_damaged_file_is_told_by_another_process(work):
-    command = nodes(work.generate("torus", "--points", 6000), "--exchange", "messages")
+    command = mpirun(2) + work.command("--blocks", 5, work.generate("torus", "--points", 6000), "mesh.ply")
     work.ok(command)
-    for file in [work.path("work/mesh.bin"), *work.path("work").glob("stars.*")]:
-        file.unlink()
-    work.write("work/planes.0.bin", flipped(work.read("work/planes.0.bin"), -3, 4))
-    work.expect(command, WORK, "planes.0.bin", "damaged")
+    work.path("work/mesh.bin").unlink()
+    work.write("work/planes.1.bin", flipped(work.read("work/planes.1.bin"), -3, 4))
+    work.expect(command, WORK, "planes.1.bin", "damaged")
 
 
 def write_tiles(work, *arguments, folder="tiles"):

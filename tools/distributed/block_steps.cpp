@@ -103,7 +103,7 @@ neighborsStep (const StepContext& context, std::size_t block)
 }
 
 int
-outliersStep (const Job& job, FolderStore& store, const Plan& plan)
+outliersStep (const Job& job, const Store& store, const Plan& plan)
 {
   const StepContext context (store, plan, job.line, job.join_threads);
   std::vector<Index> gross_outliers, outliers;

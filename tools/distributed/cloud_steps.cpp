@@ -108,7 +108,7 @@ tileName (std::size_t tile)
 }
 
 std::vector<std::uint32_t>
-findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, FolderStore& store,
+findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, const Store& store,
             const Plan& plan)
 {
   std::vector<std::uint32_t> tile_of (cloud.size (), 0);
@@ -141,7 +141,7 @@ findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, FolderSt
 // \return losses of the format, one sentence each
 std::vector<std::string>
 writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Triangles& triangles,
-            const std::vector<std::size_t>& firsts, FolderStore& store, const Plan& plan)
+            const std::vector<std::size_t>& firsts, const Store& store, const Plan& plan)
 {
   std::error_code error;
   std::filesystem::create_directory (folder, error);
@@ -256,7 +256,7 @@ prepareFolders (const Job& job)
 }
 
 int
-joinStep (const Job& job, FolderStore& store, const Plan& plan)
+joinStep (const Job& job, const Store& store, const Plan& plan)
 {
   const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
@@ -292,7 +292,7 @@ joinStep (const Job& job, FolderStore& store, const Plan& plan)
 }
 
 int
-writeStep (const Job& job, FolderStore& store, const Plan& plan)
+writeStep (const Job& job, const Store& store, const Plan& plan)
 {
   const CommandLine& line = job.line;
   ArrayFile file = openArrays (store, TRIANGLES, plan);

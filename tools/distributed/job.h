@@ -29,7 +29,6 @@ struct Job
   bool has_block = false;     ///< it was given
   std::size_t blocks = 0;     ///< 0: chosen by the number of points
   int join_threads = 0;       ///< 0: all cores
-  bool sends_files = false;   ///< --exchange messages
   bool writes_tiles = false;  ///< OUTPUT is a folder
   bool frees_disk = false;    ///< files of blocks go when the mesh is known
   bool prints_steps = false;
@@ -40,13 +39,14 @@ struct Job
 struct StepContext
 {
   /// \param store, plan must outlive this
-  StepContext (Store& files, const Plan& of, const CommandLine& line, const RunContext& context)
+  StepContext (const Store& files, const Plan& of, const CommandLine& line,
+               const RunContext& context)
       : store (files), plan (of), options (effectiveOptions (line.options)),
         limits (effectiveLimits ({}, line.options)), run (context)
   {
   }
 
-  Store& store;
+  const Store& store;
   const Plan& plan;
   Options options; ///< effective
   Limits limits;   ///< effective
@@ -60,7 +60,7 @@ BlockStep planesStep;    ///< spacing and tangent planes
 BlockStep starsStep;     ///< Delaunay stars, each by itself (see makeStars)
 
 /// \return EXIT_OK, or the exit code of what is wrong, which has been printed
-using CloudStep = int (const Job& job, FolderStore& store, const Plan& plan);
+using CloudStep = int (const Job& job, const Store& store, const Plan& plan);
 
 CloudStep outliersStep; ///< without these, if there are any, the points are written anew
 CloudStep joinStep;     ///< puts together what the blocks have found out
@@ -94,17 +94,17 @@ prepareFolders (const Job& job);
 /// Reads the cloud, sorts its points along the curve and writes them and the manifest.
 /// \return EXIT_OK, or the exit code of what is wrong with the cloud, which has been printed
 int
-planStep (const Job& job, FolderStore& store);
+planStep (const Job& job, const Store& store);
 
 /// Compares a plan with the parameters of the job and with all bytes of its files.
 /// \throws WorkError if they are others
 void
-requirePlan (const Job& job, const FolderStore& store, const Plan& plan);
+requirePlan (const Job& job, const Store& store, const Plan& plan);
 
 /// Reads the manifest. Compares it with the parameters of the job and with all bytes of its files, but
 /// for a step other than `join` that has all from the manifest.
 /// \throws WorkError if they are others
 Plan
-readPlan (const Job& job, FolderStore& store);
+readPlan (const Job& job, const Store& store);
 
 } // namespace pcl::floater

@@ -4,13 +4,17 @@
 // or more processes of MPI, with all that is known on disk between the steps. What is finished is
 // known by its file alone, so that a run that was ended goes on where it was.
 #include "job.h"
-#include "messages.h"
 #include "option_table.h"
 #include "options/check_options.h"
 #include "scratch_arrays.h"
 
+#define OMPI_SKIP_MPICXX 1
+#include <mpi.h>
+
 #include <chrono>
 #include <cstdio>
+#include <optional>
+#include <thread>
 #include <utility>
 
 namespace pcl::floater {
@@ -30,8 +34,8 @@ const char* const FOOTER =
   pcl_floater_distributed --work town --step stars --block 7
 
 Notes:
-  All processes need the work folder, on a file system that they share; with --exchange messages,
-  only the first one needs it. The first one also reads the files of points and writes the mesh.
+  All processes need the work folder, on a file system that they share. Only the first one reads the
+  files of points and writes the mesh.
   --print-steps lists the commands that are left to others, such as a Slurm array: all commands up
   to an empty line may run at the same time. They take the options of the plan from its manifest.
   A step whose files are there is not done again. The work folder stays when the mesh is written;
@@ -82,10 +86,6 @@ addSteps (CLI::App& app, Job& job)
   addNumber (app, "--block", job.block, "block of the step, from 0")->option_text ("N");
   app.add_flag ("--print-steps", job.prints_steps,
                 "print the commands of all steps after the plan, and exit");
-  constexpr Choices<bool, 2> EXCHANGE_CHOICES{{{"files", false}, {"messages", true}}};
-  addChoice (app, "--exchange", job.sends_files, EXCHANGE_CHOICES,
-             "how processes get what others have found: from files in the work folder, or by "
-             "messages of the first one");
   app.add_flag ("--free-disk", job.frees_disk,
                 "remove the files of the blocks when join has made the mesh");
 }
@@ -186,146 +186,166 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
   return std::nullopt;
 }
 
-void
-say (const Job& job, const std::string& text)
+constexpr const char *PROGRAM = "pcl_floater_distributed",
+                     *IF_NO_MEMORY = "use more blocks, or a machine with more";
+
+/// The processes that work on a run. All calls of MPI are here.
+class Processes
 {
-  if (!job.line.quiet)
-    std::fprintf (stderr, "%s\n", text.c_str ());
-}
+public:
+  /// Threads that call no function of this may run.
+  /// \param are_of_mpi else this process is the only one
+  explicit Processes (bool are_of_mpi) : are_of_mpi_ (are_of_mpi)
+  {
+    if (!are_of_mpi)
+      return;
+    int provided = 0;
+    MPI_Init_thread (nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank (MPI_COMM_WORLD, &self_);
+    MPI_Comm_size (MPI_COMM_WORLD, &count_);
+  }
+  ~Processes ()
+  {
+    if (are_of_mpi_)
+      MPI_Finalize ();
+  }
+  Processes (const Processes&) = delete;
+  Processes& operator= (const Processes&) = delete;
+
+  int self () const { return self_; } ///< from 0 on
+
+  /// Whether this process works on a block.
+  bool has (std::size_t block) const
+  {
+    return block % static_cast<std::size_t> (count_) == static_cast<std::size_t> (self_);
+  }
+
+  /// Waits for all processes, which takes no processor time.
+  /// \return the sum or the largest of their numbers
+  int combined (int number, MPI_Op operation) const
+  {
+    constexpr std::chrono::milliseconds BETWEEN_LOOKS{1};
+    int all = number, is_done = are_of_mpi_ ? 0 : 1;
+    MPI_Request request = MPI_REQUEST_NULL;
+    if (are_of_mpi_)
+      MPI_Iallreduce (&number, &all, 1, MPI_INT, operation, MPI_COMM_WORLD, &request);
+    for (; is_done == 0; std::this_thread::sleep_for (BETWEEN_LOOKS))
+      MPI_Test (&request, &is_done, MPI_STATUS_IGNORE);
+    return all;
+  }
+
+private:
+  bool are_of_mpi_;
+  int self_ = 0, count_ = 1;
+};
 
 bool
-isFinished (FolderStore& folder, const Step& step, std::size_t block, const Plan& plan)
+isFinished (const Store& store, const Step& step, std::size_t block, const Plan& plan)
 {
   if (step.of_all == writeStep) // is always done again
     return false;
   const std::string name = step.file != nullptr ? step.file : blockFile (step.name, block);
-  if (!folder.has (name))
+  if (!store.has (name))
     return false;
-  openArrays (folder, name, plan).verify ();
+  openArrays (store, name, plan).verify ();
   return true;
 }
 
-constexpr const char *PROGRAM = "pcl_floater_distributed",
-                     *IF_NO_MEMORY = "use more blocks, or a machine with more";
-
-// A process that is not the first.
+// Makes the plan if that is asked for and there is none; else reads it.
 int
-workForOthers (const Job& job, FolderStore& folder, Processes& processes)
+findPlan (const Job& job, const Store& store, Plan& plan)
 {
-  RemoteStore remote (processes);
-  Store& store = job.sends_files ? static_cast<Store&> (remote) : folder;
-  std::optional<Plan> plan;
-  Message outcome;
-  for (;;) {
-    const Message order = processes.ask (outcome);
-    if (order.topic == Topic::END)
-      return static_cast<int> (order.number);
-    outcome.count = 1;
-    outcome.number = static_cast<std::uint64_t> (guarded (
-        PROGRAM, IF_NO_MEMORY,
-        [&] {
-          if (!plan && !job.sends_files && !folder.has (MANIFEST))
-            throw WorkError ("'" + folder.describe (MANIFEST) +
-                             "' is not there for all processes; name a work folder that they "
-                             "share, or use --exchange messages");
-          if (!plan)
-            plan = parseManifest (store.open (MANIFEST).text (), store.describe (MANIFEST));
-          const StepContext context (store, *plan, job.line, job.line.options.threads);
-          findStep (order.text)->of_block (context, order.number);
-          return static_cast<int> (EXIT_OK);
-        },
-        &outcome.text));
-  }
-}
-
-// Does all steps that are not finished, or the one that is asked for.
-// \param dealer nullptr: there are no other processes
-int
-workOnSteps (const Job& job, FolderStore& folder, Dealer* dealer)
-{
-  const auto start = std::chrono::steady_clock::now ();
-  const bool does_all = job.step == nullptr;
-  const auto tellOf = [&] (const std::string& text) {
-    if (does_all && !job.line.quiet)
-      std::fprintf (stderr, "%s, %.1f s\n", text.c_str (), secondsSince (start));
-  };
-  const bool plans = does_all || job.step->isPlan ();
+  const bool plans = job.step == nullptr || job.step->isPlan ();
   if (plans)
     prepareFolders (job);
   if (job.line.max_memory > 0)
     keepLargeArraysIn (job.line.scratch, job.line.max_memory);
-  if (plans && !folder.has (MANIFEST))
-    if (const int code = planStep (job, folder); code != EXIT_OK || !does_all)
+  if (plans && !store.has (MANIFEST))
+    if (const int code = planStep (job, store); code != EXIT_OK)
       return code;
-  const Plan plan = readPlan (job, folder);
+  plan = readPlan (job, store);
   if (job.has_block && job.block >= plan.blocks)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (plan.blocks) + " blocks, which are numbered from 0");
-  if (does_all)
-    openArrays (folder, POINTS, plan).verify ();
-  tellOf ("plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
-          " blocks");
-  const StepContext context (folder, plan, job.line, job.line.options.threads);
-  const bool is_mesh_known = does_all && isFinished (folder, *findStep ("join"), 0, plan);
-  for (const Step& step : STEPS) {
-    if (step.isPlan () || !(does_all || job.step == &step) ||
-        (is_mesh_known && step.of_all != writeStep))
-      continue;
-    if (step.of_block == nullptr) {
-      if (!isFinished (folder, step, 0, plan))
-        if (const int code = step.of_all (job, folder, plan); code != EXIT_OK)
-          return code;
-      tellOf (step.name);
-      continue;
-    }
-    std::vector<std::size_t> left;
-    for (std::size_t block = 0; block < plan.blocks; ++block)
-      if ((does_all || block == job.block) && !isFinished (folder, step, block, plan))
-        left.push_back (block);
-    if (dealer != nullptr)
-      dealer->run (context, step, left);
-    else
-      for (const std::size_t block : left)
-        step.of_block (context, block);
-    tellOf (std::string (step.name) + ": " + std::to_string (left.size ()) + " blocks done, " +
-            std::to_string (plan.blocks - left.size ()) + " finished before");
-  }
+  if (job.step == nullptr)
+    openArrays (store, POINTS, plan).verify ();
   return EXIT_OK;
 }
 
-/// Does all steps that are not finished. Called by every process of MPI_COMM_WORLD with the same
-/// job. Process 0 does the steps of the whole cloud, deals out blocks, and works on some itself;
-/// without MPI, it does all.
-/// \return the exit code of all processes
+/// Does all steps that are not finished, or the one that is asked for. Called by every process with
+/// the same job. Process 0 does the steps of the whole cloud; the blocks are dealt out by number.
+/// \return the exit code, the same for all processes
 int
-runAll (const Job& job, FolderStore& folder)
+workOnSteps (const Job& job, const Store& store)
 {
-  Processes processes;
-  Dealer dealer (processes, folder);
-  const bool is_first = processes.self () == 0, has_others = processes.count () > 1;
-  const int code = guarded (PROGRAM, IF_NO_MEMORY, [&] {
-    return is_first ? workOnSteps (job, folder, has_others ? &dealer : nullptr)
-                    : workForOthers (job, folder, processes);
+  const auto start = std::chrono::steady_clock::now ();
+  const bool does_all = job.step == nullptr;
+  const Processes processes (does_all);
+  const bool is_first = processes.self () == 0;
+  int code = EXIT_OK; // of all processes
+  const auto tellOf = [&] (const std::string& text) {
+    if (is_first && does_all && code == EXIT_OK && !job.line.quiet)
+      std::fprintf (stderr, "%s, %.1f s\n", text.c_str (), secondsSince (start));
+  };
+  // Does the part of this process, and goes on when all have done theirs.
+  const auto together = [&] (const std::function<int ()>& part) {
+    if (code == EXIT_OK)
+      code = processes.combined (guarded (PROGRAM, IF_NO_MEMORY, part), MPI_MAX);
+  };
+  Plan plan;
+  bool is_mesh_known = false;
+  together ([&] () -> int { return is_first ? findPlan (job, store, plan) : EXIT_OK; });
+  tellOf ("plan: " + std::to_string (plan.points) + " points in " + std::to_string (plan.blocks) +
+          " blocks");
+  together ([&] () -> int {
+    if (!store.has (MANIFEST))
+      throw WorkError ("'" + store.path (MANIFEST).string () +
+                       "' is not there for all processes; name a work folder that they share");
+    if (!is_first)
+      plan = readManifest (store);
+    is_mesh_known = does_all && store.has (TRIANGLES);
+    return EXIT_OK;
   });
-  if (is_first && has_others) {
-    dealer.end (code);
-    if (!job.line.quiet)
-      std::fprintf (stderr, "messages: %.1f MB\n",
-                    static_cast<double> (processes.exchangedBytes ()) / 1e6);
+  for (const Step& step : STEPS) {
+    if (step.isPlan () || !(does_all || job.step == &step))
+      continue;
+    const bool is_left = !is_mesh_known || step.of_all == joinStep || step.of_all == writeStep;
+    int done = 0;
+    together ([&] () -> int {
+      if (!is_left)
+        return EXIT_OK;
+      if (step.of_all != nullptr)
+        return is_first && !isFinished (store, step, 0, plan) ? step.of_all (job, store, plan)
+                                                              : EXIT_OK;
+      const StepContext context (store, plan, job.line, job.line.options.threads);
+      for (std::size_t block = 0; block < plan.blocks; ++block)
+        if ((does_all ? processes.has (block) : block == job.block) &&
+            !isFinished (store, step, block, plan)) {
+          step.of_block (context, block);
+          ++done;
+        }
+      return EXIT_OK;
+    });
+    done = processes.combined (done, MPI_SUM);
+    if (is_left && step.of_all != nullptr)
+      tellOf (step.name);
+    else if (is_left)
+      tellOf (std::string (step.name) + ": " + std::to_string (done) + " blocks done, " +
+              std::to_string (plan.blocks - static_cast<std::size_t> (done)) + " finished before");
   }
   constexpr std::size_t MEGABYTE = 1'000'000;
-  if (code == EXIT_OK)
-    say (job, "process " + std::to_string (processes.self ()) + ": peak memory " +
-                  std::to_string (peakMemory () / MEGABYTE) + " MB");
+  if (code == EXIT_OK && does_all && !job.line.quiet)
+    std::fprintf (stderr, "process %d: peak memory %zu MB\n", processes.self (),
+                  peakMemory () / MEGABYTE);
   return code;
 }
 
 /// Prints the commands of all steps, one in each line; steps between two empty lines may run at the
 /// same time.
 void
-printSteps (const Job& job, FolderStore& folder)
+printSteps (const Job& job, const Store& store)
 {
-  const Plan plan = readPlan (job, folder);
+  const Plan plan = readPlan (job, store);
   std::string work; // quoted for a shell
   for (const char c : job.work.string ())
     work += c == '\'' ? "'\\''" : std::string (1, c);
@@ -345,12 +365,11 @@ printSteps (const Job& job, FolderStore& folder)
 int
 run (Job job)
 {
-  FolderStore folder (job.work);
+  const Store store (job.work);
   if ((job.step != nullptr || job.prints_steps) && job.inputs.empty ()) {
     // The command line that made the plan; what belongs to this step comes from this one.
     Job planned;
-    parseJob (parseManifest (folder.open (MANIFEST).text (), folder.describe (MANIFEST)).arguments,
-              planned);
+    parseJob (readManifest (store).arguments, planned);
     planned.line.options.threads = job.line.options.threads;
     planned.line.max_memory = job.line.max_memory;
     planned.line.scratch = job.line.scratch;
@@ -365,8 +384,8 @@ run (Job job)
   if (job.line.scratch.empty ())
     job.line.scratch = job.work;
   if (!job.prints_steps)
-    return job.step == nullptr ? runAll (job, folder) : workOnSteps (job, folder, nullptr);
-  printSteps (job, folder);
+    return workOnSteps (job, store);
+  printSteps (job, store);
   return EXIT_OK;
 }
 

@@ -95,19 +95,17 @@ parametersText (const Job& job)
 } // namespace
 
 Plan
-parseManifest (const std::string& text, const std::string& name)
+readManifest (const Store& store)
 {
-  const auto refuse = [&name] (const std::string& cause) {
-    throw WorkError ("'" + name + "' " + cause);
-  };
+  const WorkFile file = store.open (MANIFEST);
   try {
-    ManifestJson json = ManifestJson::parse (text);
+    ManifestJson json = ManifestJson::parse (file.text ());
     if (json.at ("format") != FORMAT)
-      refuse ("is no manifest of this program; name another work folder");
+      file.refuse ("is no manifest of this program; name another work folder");
     if (json.at ("version") != WORK_FORMAT)
-      refuse ("has the format version " + json.at ("version").dump () + ", and this program " +
-              std::to_string (WORK_FORMAT) +
-              "; use the version that made it, or an empty work folder");
+      file.refuse ("has the format version " + json.at ("version").dump () + ", and this program " +
+                   std::to_string (WORK_FORMAT) +
+                   "; use the version that made it, or an empty work folder");
     const ManifestJson checksum = json.at ("checksum");
     json.erase ("checksum");
     if (checksum == hash (textOf (json)))
@@ -115,8 +113,7 @@ parseManifest (const std::string& text, const std::string& name)
   }
   catch (const nlohmann::json::exception&) { // is told below
   }
-  refuse ("is damaged; delete it and run again");
-  return {};
+  file.refuse ("is damaged; delete it and run again");
 }
 
 Cloud
@@ -183,19 +180,20 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
 }
 
 void
-requirePlan (const Job& job, const FolderStore& store, const Plan& plan)
+requirePlan (const Job& job, const Store& store, const Plan& plan)
 {
   const std::vector<InputFile> inputs = describeInputs (job);
   if (plan.parameters != parametersText (job))
-    throw WorkError ("the options are not those of '" + store.describe (MANIFEST) +
+    throw WorkError ("the options are not those of '" + store.path (MANIFEST).string () +
                      "'; give the same, or name another work folder");
   if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
     throw WorkError ("the input files or the number of blocks are not those of '" +
-                     store.describe (MANIFEST) + "'; give the same, or name another work folder");
+                     store.path (MANIFEST).string () +
+                     "'; give the same, or name another work folder");
 }
 
 int
-planStep (const Job& job, FolderStore& store)
+planStep (const Job& job, const Store& store)
 {
   Plan plan;
   try {
@@ -247,9 +245,9 @@ planStep (const Job& job, FolderStore& store)
 }
 
 Plan
-readPlan (const Job& job, FolderStore& store)
+readPlan (const Job& job, const Store& store)
 {
-  Plan plan = parseManifest (store.open (MANIFEST).text (), store.describe (MANIFEST));
+  Plan plan = readManifest (store);
   if (!job.is_from_manifest || (job.step != nullptr && job.step->of_all == joinStep))
     requirePlan (job, store, plan);
   return plan;

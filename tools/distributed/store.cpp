@@ -51,7 +51,7 @@ withChecksums (std::uint64_t bytes)
 } // namespace
 
 void
-Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan)
+Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan) const
 {
   Head head{MAGIC,
             WORK_FORMAT,
@@ -66,55 +66,96 @@ Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t pl
     head.size += withChecksums (entry.element * entry.count);
   }
   head.checksum = checksumOf (head, table);
-  put (file, [&] (const TakeBytes& take) {
-    take ({reinterpret_cast<const char*> (&head), sizeof (head)});
-    take ({reinterpret_cast<const char*> (table.data ()), table.size () * sizeof (ArrayEntry)});
-    for (const NamedArray& array : arrays) {
-      const std::uint64_t bytes = array.element * array.count;
-      for (std::uint64_t at = 0, count = 0; at < bytes; at += count) {
-        count = std::min (PIECE, bytes - at);
-        const std::uint64_t checksum = checksumOf (array.first + at, count);
-        take ({array.first + at, count});
-        take ({reinterpret_cast<const char*> (&checksum), sizeof (checksum)});
-      }
+  AtomicFile written (path (file), true);
+  const auto write = [&written] (const void* bytes, std::size_t count) {
+    written.write ({static_cast<const char*> (bytes), count});
+  };
+  write (&head, sizeof (head));
+  write (table.data (), table.size () * sizeof (ArrayEntry));
+  for (const NamedArray& array : arrays) {
+    const std::uint64_t bytes = array.element * array.count;
+    for (std::uint64_t at = 0, count = 0; at < bytes; at += count) {
+      count = std::min (PIECE, bytes - at);
+      const std::uint64_t checksum = checksumOf (array.first + at, count);
+      write (array.first + at, count);
+      write (&checksum, sizeof (checksum));
     }
-  });
+  }
+  written.publish ();
+}
+
+WorkFile::WorkFile (const std::filesystem::path& path) : path_ (path.string ())
+{
+  const int file = ::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+  struct stat status = {};
+  if (file < 0 && errno == ELOOP)
+    refuse ("is a symbolic link, which no work folder has");
+  descriptor_ = {new int (file), [] (const int* its) {
+                   ::close (*its);
+                   delete its;
+                 }};
+  if (file < 0 || ::fstat (file, &status) != 0)
+    throw WorkError ("cannot read '" + path_ + "': " + std::strerror (errno) +
+                     (errno == ENOENT ? "; run the step that makes it (see --print-steps)" : ""));
+  constexpr uid_t NOBODY = 65534; // some file systems have files of root as those of nobody
+  const uid_t user = ::geteuid ();
+  if (!S_ISREG (status.st_mode) || (status.st_mode & (S_IWGRP | S_IWOTH)) != 0 ||
+      (status.st_uid != user && !(user == 0 && status.st_uid == NOBODY)))
+    refuse ("is not a file that only this user can write: it may be somebody else's; name a work "
+            "folder of your own");
+  size_ = static_cast<std::uint64_t> (status.st_size);
 }
 
 void
-ArrayFile::refuse (const std::string& cause) const
+WorkFile::read (std::uint64_t offset, std::size_t count, void* bytes) const
 {
-  throw WorkError ("'" + name_ + "' " + cause);
+  while (count > 0) {
+    const ssize_t got = ::pread (*descriptor_, bytes, count, static_cast<off_t> (offset));
+    if (got < 0 && errno != EINTR)
+      throw WorkError ("cannot read '" + path_ + "': " + std::strerror (errno));
+    if (got == 0)
+      refuse ("became shorter while it was read; delete it and run again");
+    const auto done = static_cast<std::size_t> (std::max<ssize_t> (got, 0));
+    bytes = static_cast<char*> (bytes) + done;
+    offset += done;
+    count -= done;
+  }
 }
 
-ArrayFile::ArrayFile (ByteSource source, std::string name, std::uint64_t plan)
-    : source_ (std::move (source)), name_ (std::move (name))
+void
+WorkFile::refuse (const std::string& cause) const
+{
+  throw WorkError ("'" + path_ + "' " + cause);
+}
+
+ArrayFile::ArrayFile (WorkFile file, std::uint64_t plan) : file_ (std::move (file))
 {
   Head head{};
+  const std::uint64_t size = file_.size ();
   const auto refuseTruncated = [&] (std::uint64_t wanted) {
-    refuse ("is truncated or has grown: " + std::to_string (source_.size) + " bytes instead of " +
-            std::to_string (wanted) + "; delete it and run again");
+    file_.refuse ("is truncated or has grown: " + std::to_string (size) + " bytes instead of " +
+                  std::to_string (wanted) + "; delete it and run again");
   };
-  if (source_.size < sizeof (head))
+  if (size < sizeof (head))
     refuseTruncated (sizeof (head));
-  source_.read (0, sizeof (head), reinterpret_cast<char*> (&head));
+  file_.read (0, sizeof (head), &head);
   if (head.magic != MAGIC)
-    refuse ("is no file of this program, or from a machine of another byte order; name another "
-            "work folder");
+    file_.refuse ("is no file of this program, or from a machine of another byte order; name "
+                  "another work folder");
   if (head.version != WORK_FORMAT)
-    refuse ("has the format version " + std::to_string (head.version) + ", and this program " +
-            std::to_string (WORK_FORMAT) +
-            "; use the version that made it, or an empty work folder");
+    file_.refuse ("has the format version " + std::to_string (head.version) +
+                  ", and this program " + std::to_string (WORK_FORMAT) +
+                  "; use the version that made it, or an empty work folder");
   table_.resize (std::min (head.arrays, MOST_ARRAYS));
   const std::size_t table_size = table_.size () * sizeof (ArrayEntry);
-  if (source_.size - sizeof (head) < table_size)
+  if (size - sizeof (head) < table_size)
     refuseTruncated (head.size);
-  source_.read (sizeof (head), table_size, reinterpret_cast<char*> (table_.data ()));
+  file_.read (sizeof (head), table_size, table_.data ());
   if (head.checksum != checksumOf (head, table_) || head.arrays > MOST_ARRAYS)
-    refuse ("is damaged; delete it and run again");
+    file_.refuse ("is damaged; delete it and run again");
   if (head.plan != plan)
-    refuse ("belongs to another plan; delete it and run again, or name another work folder");
-  if (head.size != source_.size)
+    file_.refuse ("belongs to another plan; delete it and run again, or name another work folder");
+  if (head.size != size)
     refuseTruncated (head.size);
   for (const ArrayEntry& entry : table_)
     require (entry.name.back () == '\0' && entry.element > 0 &&
@@ -128,7 +169,7 @@ ArrayFile::find (const std::string& array) const
   for (const ArrayEntry& known : table_)
     if (array == known.name.data ())
       return known;
-  refuse ("has no array '" + array + "'; delete it and run again");
+  file_.refuse ("has no array '" + array + "'; delete it and run again");
 }
 
 void
@@ -139,14 +180,14 @@ ArrayFile::fillBuffer (const ArrayEntry& array, std::uint64_t at, std::uint64_t 
       {(end - begin + PIECE - 1) / PIECE * PIECE, AT_ONCE, array.element * array.count - begin});
   buffer_of_ = nullptr; // as long as nothing is known of its bytes
   buffer_.resize (withChecksums (wanted));
-  source_.read (array.offset + withChecksums (begin), buffer_.size (), buffer_.data ());
+  file_.read (array.offset + withChecksums (begin), buffer_.size (), buffer_.data ());
   const char* piece = buffer_.data ();
   for (std::uint64_t to = 0, count = 0; to < wanted; to += count) {
     count = std::min (PIECE, wanted - to);
     std::uint64_t checksum = 0;
     std::memcpy (&checksum, piece + count, sizeof (checksum));
     if (checksumOf (piece, count) != checksum)
-      refuse ("is damaged; delete it and run again");
+      file_.refuse ("is damaged; delete it and run again");
     std::memmove (buffer_.data () + to, piece, count);
     piece += count + sizeof (checksum);
   }
@@ -174,56 +215,6 @@ ArrayFile::verify ()
 {
   for (const ArrayEntry& array : table_)
     readBytes (array, 0, array.count, nullptr);
-}
-
-ByteSource
-FolderStore::open (const std::string& name)
-{
-  const std::string path = describe (name);
-  const auto fail = [path] (int error) {
-    throw WorkError (
-        error == ELOOP
-            ? "'" + path + "' is a symbolic link, which no work folder has"
-            : "cannot read '" + path + "': " + std::strerror (error) +
-                  (error == ENOENT ? "; run the step that makes it (see --print-steps)" : ""));
-  };
-  const int file = ::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-  struct stat status = {};
-  if (file < 0)
-    fail (errno);
-  const std::shared_ptr<void> closing (nullptr, [file] (void*) { ::close (file); });
-  if (::fstat (file, &status) != 0)
-    fail (errno);
-  constexpr uid_t NOBODY = 65534; // some file systems have files of root as those of nobody
-  const uid_t user = ::geteuid ();
-  if (!S_ISREG (status.st_mode) || (status.st_mode & (S_IWGRP | S_IWOTH)) != 0 ||
-      (status.st_uid != user && !(user == 0 && status.st_uid == NOBODY)))
-    throw WorkError ("'" + path +
-                     "' is not a file that only this user can write: it may be somebody else's; "
-                     "name a work folder of your own");
-  return {static_cast<std::uint64_t> (status.st_size),
-          [file, closing, path, fail] (std::uint64_t offset, std::size_t count, char* bytes) {
-            while (count > 0) {
-              const ssize_t got = ::pread (file, bytes, count, static_cast<off_t> (offset));
-              if (got < 0 && errno != EINTR)
-                fail (errno);
-              if (got == 0)
-                throw WorkError ("'" + path +
-                                 "' became shorter while it was read; delete it and run again");
-              const auto done = static_cast<std::size_t> (std::max<ssize_t> (got, 0));
-              bytes += done;
-              offset += done;
-              count -= done;
-            }
-          }};
-}
-
-void
-FolderStore::put (const std::string& name, const std::function<void (const TakeBytes&)>& emit)
-{
-  AtomicFile file (path (name), true);
-  emit ([&file] (std::string_view bytes) { file.write (bytes); });
-  file.publish ();
 }
 
 } // namespace pcl::floater

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a run, in its work folder or at another process that has it, and their manifest: what
-// is reconstructed, how, and in which blocks.
+// The files of a run, in its work folder, and their manifest: what is reconstructed, how, and in which
+// blocks.
 #pragma once
 
 #include "core/types.h"
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,11 +44,6 @@ struct Plan
   Eigen::Vector3d shift () const { return Eigen::Vector3d (figures.shift.data ()); }
 };
 
-/// \param name for messages
-/// \throws WorkError if it is no manifest of this version, or damaged
-Plan
-parseManifest (const std::string& text, const std::string& name);
-
 /// Reads all files, one after the other; a single one is mapped as it is. Of several, the fields
 /// are those that all files have with one type, and coordinates are doubles.
 /// \param[out] firsts the first row of each file, and the number of all rows
@@ -66,25 +61,36 @@ struct WorkError : ToolError
   explicit WorkError (const std::string& message) : ToolError (EXIT_WORK, message) {}
 };
 
-/// Bytes of a file, wherever it is.
-struct ByteSource
+/// A file of the work folder, open to be read. Others must not be able to write it: it is a file of this
+/// user, writable by nobody else, and no symbolic link.
+class WorkFile
 {
-  std::uint64_t size = 0;
+public:
+  /// \throws WorkError if it is not there, or somebody else's
+  explicit WorkFile (const std::filesystem::path& path);
 
-  /// Reads `count` bytes from `offset`. Throws WorkError if they are not there.
-  std::function<void (std::uint64_t offset, std::size_t count, char* bytes)> read;
+  std::uint64_t size () const { return size_; }
+
+  /// Reads `count` bytes from `offset`.
+  /// \throws WorkError if they are not there
+  void read (std::uint64_t offset, std::size_t count, void* bytes) const;
 
   /// All bytes of a small file.
   std::string text () const
   {
-    std::string text (size, '\0');
+    std::string text (size_, '\0');
     read (0, text.size (), text.data ());
     return text;
   }
-};
 
-/// Takes the bytes of a file, one piece after the other.
-using TakeBytes = std::function<void (std::string_view bytes)>;
+  /// \throws WorkError which names the file and this cause
+  [[noreturn]] void refuse (const std::string& cause) const;
+
+private:
+  std::string path_;
+  std::shared_ptr<const int> descriptor_;
+  std::uint64_t size_ = 0;
+};
 
 struct ArrayEntry
 {
@@ -115,11 +121,10 @@ using NamedArrays = std::vector<NamedArray>;
 class ArrayFile
 {
 public:
-  /// \param name for messages
   /// \param plan of which the arrays have to be a part
   /// \throws WorkError if it is no such file, has another version, is truncated, or is of another
   ///   plan; as do all members that read, if the file is damaged
-  ArrayFile (ByteSource source, std::string name, std::uint64_t plan);
+  ArrayFile (WorkFile file, std::uint64_t plan);
 
   std::size_t count (const std::string& array) const { return find (array).count; }
 
@@ -152,7 +157,7 @@ public:
   void require (bool fits) const
   {
     if (!fits)
-      refuse ("has other arrays than this program makes; use an empty work folder");
+      file_.refuse ("has other arrays than this program makes; use an empty work folder");
   }
 
   /// \throws WorkError if indices, or those in arrays of them, are not below a limit
@@ -170,54 +175,27 @@ private:
   void fillBuffer (const ArrayEntry& array, std::uint64_t at, std::uint64_t end);
   /// \param bytes nullptr: the values are only compared with their checksums
   void readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes);
-  [[noreturn]] void refuse (const std::string& cause) const;
 
-  ByteSource source_;
-  std::string name_;
+  WorkFile file_;
   std::vector<ArrayEntry> table_;
   std::vector<char> buffer_; // bytes that were read last
   const ArrayEntry* buffer_of_ = nullptr;
   std::uint64_t buffer_at_ = 0; // where they are in the array
 };
 
+/// The work folder. Its files are visible when they are complete and on the disk.
 class Store
 {
 public:
-  virtual ~Store () = default;
-
-  /// What messages call a file.
-  virtual std::string describe (const std::string& name) const = 0;
-
-  /// \throws WorkError if it is not there
-  virtual ByteSource open (const std::string& name) = 0;
-
-  /// Writes a file that is visible when it is complete.
-  /// \param emit passes on its bytes
-  /// \throws WriteError
-  virtual void put (const std::string& name,
-                    const std::function<void (const TakeBytes&)>& emit) = 0;
-
-  /// \param plan of which the arrays are a part
-  void put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan);
-};
-
-/// The files are in a folder. They are visible when they are complete and on the disk. Others must
-/// not be able to write them: each is a file of this user, writable by nobody else, and no symbolic
-/// link.
-class FolderStore : public Store
-{
-public:
-  explicit FolderStore (std::filesystem::path folder) : folder_ (std::move (folder)) {}
+  explicit Store (std::filesystem::path folder) : folder_ (std::move (folder)) {}
 
   std::filesystem::path path (const std::string& name) const { return folder_ / name; }
   bool has (const std::string& name) const { return std::filesystem::exists (path (name)); }
+  WorkFile open (const std::string& name) const { return WorkFile (path (name)); }
 
-  std::string describe (const std::string& name) const override { return path (name).string (); }
-  ByteSource open (const std::string& name) override;
-  using Store::put;
-
-  /// Two threads may put files at the same time.
-  void put (const std::string& name, const std::function<void (const TakeBytes&)>& emit) override;
+  /// \param plan of which the arrays are a part
+  /// \throws WriteError
+  void put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan) const;
 
   /// Removes a file, if it is there. Others that are open go on to read it.
   void remove (const std::string& name) const
@@ -244,9 +222,13 @@ blockFile (const char* step, std::size_t block)
 }
 
 inline ArrayFile
-openArrays (Store& store, const std::string& name, const Plan& plan)
+openArrays (const Store& store, const std::string& name, const Plan& plan)
 {
-  return {store.open (name), store.describe (name), plan.id};
+  return {store.open (name), plan.id};
 }
+
+/// \throws WorkError if there is no manifest, it is of another version, or damaged
+Plan
+readManifest (const Store& store);
 
 } // namespace pcl::floater

@@ -49,7 +49,7 @@ readLeftOut (const StepContext& context)
 /// \param name POINTS or POINTS_LEFT
 /// \param gross_outliers cloud indices
 inline void
-writePoints (Store& store, const std::string& name, std::uint64_t plan, const Points& points,
+writePoints (const Store& store, const std::string& name, std::uint64_t plan, const Points& points,
              const std::vector<Index>& gross_outliers)
 {
   store.put (name,
@@ -67,7 +67,7 @@ writePoints (Store& store, const std::string& name, std::uint64_t plan, const Po
 /// Reads the working set of the plan.
 /// \param[out] gross_outliers cloud indices
 inline Points
-readPoints (Store& store, const Plan& plan, std::vector<Index>& gross_outliers)
+readPoints (const Store& store, const Plan& plan, std::vector<Index>& gross_outliers)
 {
   ArrayFile file = openArrays (store, POINTS, plan);
   Points points;
