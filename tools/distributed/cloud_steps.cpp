@@ -12,8 +12,8 @@
 #include "report_json.h"
 #include "stored_cloud.h"
 
+#include <lodepng.h>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -200,9 +200,9 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
     publishAll (files);
     const FileBytes written (path); // as it is read back
     std::array<char, 9> sum{};
-    std::snprintf (sum.data (), sum.size (), "%08lx",
-                   ::crc32_z (0, reinterpret_cast<const Bytef*> (written.view ().data ()),
-                              written.view ().size ()));
+    std::snprintf (sum.data (), sum.size (), "%08x",
+                   lodepng_crc32 (reinterpret_cast<const unsigned char*> (written.view ().data ()),
+                                  written.view ().size ()));
     list.push_back ({{"file", tileName (tile)},
                      {"input", plan.inputs[are_files ? tile : 0].file},
                      {"bytes", written.view ().size ()},
