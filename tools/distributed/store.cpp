@@ -84,17 +84,15 @@ Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t pl
   written.publish ();
 }
 
-WorkFile::WorkFile (const std::filesystem::path& path) : path_ (path.string ())
+WorkFile::WorkFile (const std::filesystem::path& path)
+    : path_ (path.string ()),
+      descriptor_ (::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW)),
+      closing_ (nullptr, [file = descriptor_] (void*) { ::close (file); })
 {
-  const int file = ::open (path.c_str (), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
   struct stat status = {};
-  if (file < 0 && errno == ELOOP)
+  if (descriptor_ < 0 && errno == ELOOP)
     refuse ("is a symbolic link, which no work folder has");
-  descriptor_ = {new int (file), [] (const int* its) {
-                   ::close (*its);
-                   delete its;
-                 }};
-  if (file < 0 || ::fstat (file, &status) != 0)
+  if (descriptor_ < 0 || ::fstat (descriptor_, &status) != 0)
     throw WorkError ("cannot read '" + path_ + "': " + std::strerror (errno) +
                      (errno == ENOENT ? "; run the step that makes it (see --print-steps)" : ""));
   constexpr uid_t NOBODY = 65534; // some file systems have files of root as those of nobody
@@ -110,7 +108,7 @@ void
 WorkFile::read (std::uint64_t offset, std::size_t count, void* bytes) const
 {
   while (count > 0) {
-    const ssize_t got = ::pread (*descriptor_, bytes, count, static_cast<off_t> (offset));
+    const ssize_t got = ::pread (descriptor_, bytes, count, static_cast<off_t> (offset));
     if (got < 0 && errno != EINTR)
       throw WorkError ("cannot read '" + path_ + "': " + std::strerror (errno));
     if (got == 0)

@@ -88,7 +88,8 @@ public:
 
 private:
   std::string path_;
-  std::shared_ptr<const int> descriptor_;
+  int descriptor_;
+  std::shared_ptr<void> closing_; // closes it with the last copy
   std::uint64_t size_ = 0;
 };
 
