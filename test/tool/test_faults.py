@@ -176,8 +176,8 @@ def test_scratch_folder_that_cannot_be_used(tool):
         tool.fail(f"in.pcd out.ply --max-memory 2G --scratch {folder}", OUTPUT,
                   f"cannot use the scratch folder '{folder}': ")
     if not IS_SANITIZED:
-        tool.fail("in.pcd out.ply --max-memory 60M", INTERNAL, "no room in the scratch folder '.': File too large",
-                  file_limit=1 << 20)
+        tool.fail("in.pcd out.ply --max-memory 60M", INTERNAL, "no room in the scratch folder '.': File too large; it holds ",
+                  " MB more are needed; raise the limit on file sizes", file_limit=1 << 20)
 
 
 @pytest.mark.skipif(IS_SANITIZED, reason="arrays stay in memory")

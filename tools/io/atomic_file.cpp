@@ -41,16 +41,15 @@ endOnSignal (int signal_number)
   ::raise (signal_number);
 }
 
+// Nothing else raises this signal: the space of scratch files is reserved.
 extern "C" void
-endOnBusError (int signal_number, siginfo_t* info, void* /*context*/)
+endOnBusError (int /*signal_number*/)
 {
-  static constexpr char MESSAGE[] = "\nthe input file was truncated while it was in use\n";
+  static constexpr char MESSAGE[] =
+      "\nthe input file was truncated while it was in use, or a disk cannot be read\n";
   removeTemporaryFiles ();
-  if (isInMappedFile (info->si_addr)) {
-    [[maybe_unused]] const ssize_t written = ::write (STDERR_FILENO, MESSAGE, sizeof MESSAGE - 1);
-    ::_exit (exit_code_of_shrunk_input);
-  }
-  ::raise (signal_number);
+  [[maybe_unused]] const ssize_t written = ::write (STDERR_FILENO, MESSAGE, sizeof MESSAGE - 1);
+  ::_exit (exit_code_of_shrunk_input);
 }
 
 /// Puts a name in the place of another one; either may be nullptr. Leaves errno as it is.
@@ -145,8 +144,7 @@ handleSignals (int input_failed)
       ::sigaction (signal_number, &action, nullptr);
   }
   exit_code_of_shrunk_input = input_failed;
-  action.sa_sigaction = endOnBusError;
-  action.sa_flags = static_cast<int> (SA_RESETHAND) | SA_SIGINFO;
+  action.sa_handler = endOnBusError;
   ::sigaction (SIGBUS, &action, nullptr);
 }
 

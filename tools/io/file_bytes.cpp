@@ -10,21 +10,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
+#include <map>
 #include <mutex>
 
 namespace pcl::floater {
 namespace {
-/// Addresses of the mapped files, for the signal handler. It does not know files beyond
-/// MOST_RANGES.
-struct MappedRange
-{
-  std::atomic<std::uintptr_t> first{0}, last{0}; // both 0: free
-};
-constexpr std::size_t MOST_RANGES = 8;
-std::array<MappedRange, MOST_RANGES> mapped_ranges;
-std::mutex ranges_mutex; // held while a range is added or removed
+std::map<char*, std::size_t> mapped_files; // sizes by address
+std::mutex mapped_files_mutex;
 
 [[noreturn]] void
 failOnErrno ()
@@ -52,24 +45,17 @@ struct FileBytes::Holder
     }
     bytes = {static_cast<const char*> (at), size};
     ::madvise (at, size, MADV_SEQUENTIAL);
-    const auto first = reinterpret_cast<std::uintptr_t> (at);
-    const std::lock_guard<std::mutex> lock (ranges_mutex);
-    for (MappedRange& range : mapped_ranges)
-      if (range.first == 0) {
-        range.last = first + size;
-        range.first = first;
-        break;
-      }
+    const std::lock_guard<std::mutex> lock (mapped_files_mutex);
+    mapped_files.emplace (static_cast<char*> (at), size);
   }
 
   ~Holder ()
   {
     if (is_mapped) {
-      const std::lock_guard<std::mutex> lock (ranges_mutex);
-      for (MappedRange& range : mapped_ranges)
-        if (range.first == reinterpret_cast<std::uintptr_t> (bytes.data ()))
-          range.first = range.last = 0;
-      ::munmap (const_cast<char*> (bytes.data ()), bytes.size ());
+      char* const at = const_cast<char*> (bytes.data ());
+      const std::lock_guard<std::mutex> lock (mapped_files_mutex);
+      mapped_files.erase (at);
+      ::munmap (at, bytes.size ());
     }
     if (descriptor >= 0)
       ::close (descriptor);
@@ -119,11 +105,9 @@ FileBytes::FileBytes (const std::filesystem::path& path)
 void
 giveBackMappedFiles ()
 {
-  const std::lock_guard<std::mutex> lock (ranges_mutex);
-  for (const MappedRange& range : mapped_ranges)
-    if (range.first != 0)
-      ::madvise (reinterpret_cast<void*> (range.first.load ()), range.last - range.first,
-                 MADV_DONTNEED);
+  const std::lock_guard<std::mutex> lock (mapped_files_mutex);
+  for (const auto& [at, size] : mapped_files)
+    ::madvise (at, size, MADV_DONTNEED);
 }
 
 bool
@@ -135,16 +119,6 @@ FileBytes::hasChanged () const
   return ::fstat (holder_->descriptor, &now) != 0 || now.st_size != holder_->status.st_size ||
          now.st_mtim.tv_sec != holder_->status.st_mtim.tv_sec ||
          now.st_mtim.tv_nsec != holder_->status.st_mtim.tv_nsec;
-}
-
-bool
-isInMappedFile (const void* address)
-{
-  const auto at = reinterpret_cast<std::uintptr_t> (address);
-  for (const MappedRange& range : mapped_ranges)
-    if (at >= range.first && at < range.last)
-      return true;
-  return false;
 }
 
 } // namespace pcl::floater

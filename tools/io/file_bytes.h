@@ -83,8 +83,4 @@ private:
 void
 giveBackMappedFiles ();
 
-/// Whether the address is in a mapped file. May be called by signal handlers.
-bool
-isInMappedFile (const void* address);
-
 } // namespace pcl::floater
