@@ -58,7 +58,7 @@ public:
 
   /// \param shade gives the colour of a point of it from the shares of its corners, which sum to 1
   template <typename Shade>
-  void fill (const std::array<Spot, 3>& corners, const Shade& shade)
+  void fill (const std::array<Spot, 3>& corners, const Shade& shade, double opacity = 1.0)
   {
     constexpr double SMALLEST = 1e-6; // pixels; below, the shares would be noise
     const auto& [a, b, c] = corners;
@@ -73,7 +73,7 @@ public:
                    if (!hide (pixel, shares.dot (nearness)))
                      return;
                    const Eigen::Vector3d weighted = shares.cwiseProduct (weights);
-                   paint (pixel, shade (Eigen::Vector3d (weighted / weighted.sum ())));
+                   paint (pixel, shade (Eigen::Vector3d (weighted / weighted.sum ())), opacity);
                  });
   }
 
@@ -86,39 +86,22 @@ public:
   }
 
   /// \param width in pixels
-  void drawLine (Spot from, Spot to, int width, const Colour& colour, double opacity)
+  void drawLine (const Spot& from, const Spot& to, int width, const Colour& colour, double opacity)
   {
-    const bool is_steep = std::abs (to.y - from.y) > std::abs (to.x - from.x);
-    for (Spot* end : {&from, &to})
-      if (is_steep)
-        std::swap (end->x, end->y);
-    if (from.x > to.x)
-      std::swap (from, to);
-    for (int x = firstPixel (from.x); x <= lastPixel (to.x); ++x) {
-      const double share = to.x > from.x ? (x + 0.5 - from.x) / (to.x - from.x) : 0.0;
-      const double nearness = from.nearness + share * (to.nearness - from.nearness);
-      const double low = from.y + share * (to.y - from.y) - 0.5 * width;
-      for (int y = firstPixel (low); y < firstPixel (low + width); ++y) {
-        const std::size_t pixel = is_steep ? at (y, x) : at (x, y);
-        if (hide (pixel, nearness))
-          paint (pixel, colour, opacity);
-      }
-    }
+    const Eigen::Vector2d along = Eigen::Vector2d (to.x - from.x, to.y - from.y).normalized ();
+    const auto beside = [&along, width] (Spot spot, double side) {
+      spot.x -= 0.5 * side * width * along.y ();
+      spot.y += 0.5 * side * width * along.x ();
+      return spot;
+    };
+    const auto shade = [&colour] (const Eigen::Vector3d& /*shares*/) { return colour; };
+    fill ({beside (from, 1.0), beside (from, -1.0), beside (to, 1.0)}, shade, opacity);
+    fill ({beside (to, -1.0), beside (from, -1.0), beside (to, 1.0)}, shade, opacity);
   }
 
   const ColourImage& image () const { return image_; }
 
 private:
-  // The pixels whose middles are on either side of a place.
-  int firstPixel (double place) const
-  {
-    return static_cast<int> (std::ceil (std::clamp (place, 0.0, side ()) - 0.5));
-  }
-  int lastPixel (double place) const
-  {
-    return static_cast<int> (std::floor (std::clamp (place, 0.0, side ()) - 0.5));
-  }
-
   // Whether nothing in the pixel is nearer; then what is there is hidden.
   bool hide (std::size_t pixel, double nearness)
   {
@@ -128,18 +111,13 @@ private:
     return true;
   }
 
-  void paint (std::size_t pixel, const Colour& colour, double opacity = 1.0)
+  void paint (std::size_t pixel, const Colour& colour, double opacity)
   {
     for (std::size_t channel = 0; channel < 3; ++channel) {
       std::uint8_t& value = image_.pixels[pixel][channel];
       const double wanted = 255.0 * colour[static_cast<Eigen::Index> (channel)];
       value = static_cast<std::uint8_t> (std::lround (value + opacity * (wanted - value)));
     }
-  }
-
-  std::size_t at (int x, int y) const
-  {
-    return static_cast<std::size_t> (y) * side_ + static_cast<std::size_t> (x);
   }
 
   std::size_t side_;
