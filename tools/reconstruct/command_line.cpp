@@ -21,25 +21,18 @@ plain (const std::string& word)
   return text;
 }
 
-/// Number of letters to insert, drop or replace, or of neighbours to swap, to make one word of the
-/// other.
+/// Letters of the longer word that are left when equal beginnings and ends are taken off both: one
+/// if a letter was inserted, dropped or replaced, two if neighbours were swapped.
 std::size_t
-editDistance (const std::string& a, const std::string& b)
+difference (std::string_view a, std::string_view b)
 {
-  // Distances between the first letters of a and of b.
-  std::vector<std::vector<std::size_t>> table (a.size () + 1,
-                                               std::vector<std::size_t> (b.size () + 1));
-  for (std::size_t i = 0; i <= a.size (); ++i)
-    for (std::size_t j = 0; j <= b.size (); ++j) {
-      std::size_t& distance = table[i][j] = i + j;
-      if (i == 0 || j == 0)
-        continue;
-      distance = std::min ({table[i - 1][j] + 1, table[i][j - 1] + 1,
-                            table[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        distance = std::min (distance, table[i - 2][j - 2] + 1);
-    }
-  return table[a.size ()][b.size ()];
+  const auto common = [] (auto first, auto last, auto other, auto other_last) {
+    return static_cast<std::size_t> (std::mismatch (first, last, other, other_last).first - first);
+  };
+  const std::size_t begin = common (a.begin (), a.end (), b.begin (), b.end ());
+  a.remove_prefix (begin);
+  b.remove_prefix (begin);
+  return std::max (a.size (), b.size ()) - common (a.rbegin (), a.rend (), b.rbegin (), b.rend ());
 }
 
 std::string
@@ -229,20 +222,17 @@ guarded (const char* program, const char* if_no_memory, const std::function<int 
 std::string
 didYouMean (const std::string& word, const std::vector<std::string>& words)
 {
-  constexpr std::size_t LONGEST = 100; // letters; nobody mistypes more
-  constexpr std::size_t FEWEST = 3;    // letters that tell what they begin
-  constexpr std::size_t MOST = 4;      // more words are no help
+  constexpr std::size_t FEWEST = 3; // letters that tell what they begin
+  constexpr std::size_t MOST = 4;   // more words are no help
   const std::string typed = plain (word);
   Words nearest;
-  std::size_t least = LONGEST;
+  std::size_t least = typed.size ();
   for (const std::string& candidate : words) {
     const std::string known = plain (candidate);
-    if (typed.empty () || typed.size () > LONGEST)
-      break;
-    std::size_t distance = editDistance (typed, known);
+    std::size_t distance = difference (typed, known);
     if (distance > 0 && typed.size () >= FEWEST && known.compare (0, typed.size (), typed) == 0)
       distance = 1;
-    if (3 * distance > std::max (typed.size (), known.size ()) || distance > least)
+    if (2 * distance > std::min (typed.size (), known.size ()) || distance > least)
       continue;
     if (distance < least)
       nearest.clear ();

@@ -67,25 +67,21 @@ Exit codes:
      is written, but no mesh
 )";
 
-// Adds the options of the table that a tool takes.
+// Adds options of the table.
 struct TableOptions
 {
   CLI::App& app;
-  std::function<bool (const OptionRow&)> takes;
 
   template <typename Number>
   void operator() (const OptionRow& row, Number& value, const NumberRange& range)
   {
     const bool is_plain = range.text () == NumberRange{0, NO_LIMIT}.text ();
-    if (takes (row))
-      addNumber (app, nameOf (row), value, row.text + (is_plain ? "" : ", " + range.text ()))
-          ->group (row.group);
+    addNumber (app, nameOf (row), value, row.text + (is_plain ? "" : ", " + range.text ()));
   }
   template <typename Enum, std::size_t N>
   void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
   {
-    if (takes (row))
-      addChoice (app, nameOf (row), value, choices, row.text)->group (row.group);
+    addChoice (app, nameOf (row), value, choices, row.text);
   }
   void operator() (const OptionRow& row, bool& value) { (*this) (row, value, SWITCH_CHOICES); }
   void operator() (const OptionRow& row, HoleOptions& holes, LengthUnit unit)
@@ -94,8 +90,7 @@ struct TableOptions
       holes.unit = unit;
       return parseNumber (word, holes.largest_hole) ? "" : "is not a number";
     };
-    if (takes (row))
-      addParsed (app, nameOf (row), parse, row.text, "X")->group (row.group);
+    addParsed (app, nameOf (row), parse, row.text, "X");
   }
   void operator() (const OptionRow& row, ViewOptions& view)
   {
@@ -108,9 +103,7 @@ struct TableOptions
                  ? ""
                  : "is neither auto, none, nor three numbers, such as 0,0,1.5";
     };
-    if (takes (row))
-      addParsed (app, nameOf (row), parse, row.text, "X,Y,Z, auto or none (auto)")
-          ->group (row.group);
+    addParsed (app, nameOf (row), parse, row.text, "X,Y,Z, auto or none (auto)");
   }
 
   // "-k,--neighbors"
@@ -203,7 +196,11 @@ void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes)
 {
-  visitOptions (line.options, TableOptions{app, takes});
+  visitOptions (line.options, [&] (const OptionRow& row, auto&&... value) {
+    beginGroup (app, row.group);
+    if (takes (row))
+      TableOptions{app}(row, value...);
+  });
   beginGroup (app, option_group::NEIGHBORHOODS);
   addChoice (
       app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,

@@ -14,8 +14,8 @@
 #include <string>
 
 namespace pcl::floater {
-/// "; did you mean a or b?" with the words that a mistyped one begins, or else those at the least
-/// distance, of at most a third of the letters. Empty if there are none, or too many.
+/// "; did you mean a or b?" with the words that a mistyped one begins, or else those that differ
+/// least from it, in at most half of the letters. Empty if there are none, or too many.
 std::string
 didYouMean (const std::string& word, const std::vector<std::string>& words);
 
