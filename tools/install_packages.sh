@@ -65,29 +65,20 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 apt () {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o DPkg::Lock::Timeout=300 \
-    -o Acquire::Retries=3 "$@" >>"$log" 2>&1
+    -o Acquire::Retries=3 "$@" 2>&1 | tee -a "$log"
 }
+# Tells how far it is, from what apt writes: each package is unpacked, and set up later.
 install () {
   local total
   total=$(apt-get -qq -s install --no-install-recommends "${missing[@]}" | grep -c '^Inst') || true
-  # Tells how far it is, from what apt has written.
-  (last=
-   while sleep 10 >/dev/null 2>&1; do
-     # Each package is unpacked, and set up later.
-     now=$(grep -cE '^(Unpacking|Setting up)' "$log" || true)
-     [[ $now == "$last" ]] || echo "  step $now of $((2 * total))"
-     last=$now
-   done) &
-  local teller=$! result=0
-  apt install --no-install-recommends "${missing[@]}" || result=$?
-  kill "$teller"
-  return "$result"
+  apt install --no-install-recommends "${missing[@]}" |
+    awk -v all=$((2 * total)) '/^(Unpacking|Setting up)/ && ++step % 20 == 0 { print "  step " step " of " all; fflush () }'
 }
 
 echo "Installing these packages, and those that they need: ${missing[*]}"
 for attempt in 1 2 3; do
   # Outdated package lists name files that the mirror no longer has.
-  if apt update && install; then
+  if apt update >/dev/null && install; then
     exit 0
   fi
   echo "install_packages.sh: attempt $attempt of 3 failed" >&2
