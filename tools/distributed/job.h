@@ -101,10 +101,4 @@ planStep (const Job& job, const Store& store);
 void
 requirePlan (const Job& job, const Store& store, const Plan& plan);
 
-/// Reads the manifest. Compares it with the parameters of the job and with all bytes of its files, but
-/// for a step other than `join` that has all from the manifest.
-/// \throws WorkError if they are others
-Plan
-readPlan (const Job& job, const Store& store);
-
 } // namespace pcl::floater

@@ -251,7 +251,8 @@ isFinished (const Store& store, const Step& step, std::size_t block, const Plan&
   return true;
 }
 
-// Makes the plan if that is asked for and there is none; else reads it.
+// Makes the plan if that is asked for and there is none. Reads it and compares it with the job, but
+// for a step other than `join` that has all from the manifest.
 int
 findPlan (const Job& job, const Store& store, Plan& plan)
 {
@@ -263,7 +264,9 @@ findPlan (const Job& job, const Store& store, Plan& plan)
   if (plans && !store.has (MANIFEST))
     if (const int code = planStep (job, store); code != EXIT_OK)
       return code;
-  plan = readPlan (job, store);
+  plan = readManifest (store);
+  if (!job.is_from_manifest || (job.step != nullptr && job.step->of_all == joinStep))
+    requirePlan (job, store, plan);
   if (job.has_block && job.block >= plan.blocks)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (plan.blocks) + " blocks, which are numbered from 0");
@@ -345,7 +348,7 @@ workOnSteps (const Job& job, const Store& store)
 void
 printSteps (const Job& job, const Store& store)
 {
-  const Plan plan = readPlan (job, store);
+  const Plan plan = readManifest (store);
   std::string work; // quoted for a shell
   for (const char c : job.work.string ())
     work += c == '\'' ? "'\\''" : std::string (1, c);

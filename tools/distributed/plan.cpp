@@ -244,13 +244,4 @@ planStep (const Job& job, const Store& store)
   return EXIT_OK;
 }
 
-Plan
-readPlan (const Job& job, const Store& store)
-{
-  Plan plan = readManifest (store);
-  if (!job.is_from_manifest || (job.step != nullptr && job.step->of_all == joinStep))
-    requirePlan (job, store, plan);
-  return plan;
-}
-
 } // namespace pcl::floater
