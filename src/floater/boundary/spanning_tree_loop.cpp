@@ -20,7 +20,6 @@ constexpr std::size_t NEAR_CANDIDATES = 8;
 struct CandidateEdge
 {
   Index a, b; // numbers of candidates, a < b
-  float length;
   float cost;
 };
 
@@ -33,24 +32,6 @@ pointsOf (const std::vector<Gap>& gaps)
     if (points.empty () || points.back () != gap.point)
       points.push_back (gap.point);
   return points;
-}
-
-// Keeps the cheapest of several edges between the same candidates, and sorts by cost, then by the
-// candidates' numbers.
-void
-sortByCost (std::vector<CandidateEdge>& edges)
-{
-  std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
-    return std::tie (x.a, x.b, x.cost) < std::tie (y.a, y.b, y.cost);
-  });
-  edges.erase (std::unique (edges.begin (), edges.end (),
-                            [] (const CandidateEdge& x, const CandidateEdge& y) {
-                              return x.a == y.a && x.b == y.b;
-                            }),
-               edges.end ());
-  std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
-    return std::tie (x.cost, x.a, x.b) < std::tie (y.cost, y.a, y.b);
-  });
 }
 
 // \param gaps ordered by point
@@ -70,8 +51,8 @@ joinCandidates (const Positions& positions, const std::vector<float>& spacing,
     if (a == b || a == NONE || b == NONE ||
         length > limits.longest_edge * 0.5 * (spacing[p] + spacing[q]))
       return;
-    edges.push_back ({std::min (a, b), std::max (a, b), static_cast<float> (length),
-                      static_cast<float> (cost_per_length * length)});
+    edges.push_back (
+        {std::min (a, b), std::max (a, b), static_cast<float> (cost_per_length * length)});
   };
   const auto sees = [&] (Index p, Index q) {
     const auto first =
@@ -97,125 +78,70 @@ joinCandidates (const Positions& positions, const std::vector<float>& spacing,
     for (const Neighbor& neighbor : found)
       add (p, candidates[neighbor.point], 1.0);
   }
-  sortByCost (edges);
+  std::sort (edges.begin (), edges.end (), [] (const CandidateEdge& x, const CandidateEdge& y) {
+    return std::tie (x.cost, x.a, x.b) < std::tie (y.cost, y.a, y.b);
+  });
   return edges;
 }
 
-// A minimum spanning forest. Every node stores its parent and an ancestor farther up, so the length
-// of the path between two nodes takes O(log nodes) (Myers 1983, "An applicative random-access
-// stack").
-class SpanningForest
-{
-public:
-  // Kruskal's algorithm.
-  // \param edges   by cost
-  // \param outside gets the edges that are not in the forest
-  SpanningForest (std::size_t nodes, const std::vector<CandidateEdge>& edges,
-                  std::vector<CandidateEdge>& outside, const RunContext& run)
-      : root_distance_ (nodes, 0.0), depth_ (nodes, 0), parent_ (nodes, NONE), jump_ (nodes, NONE)
-  {
-    DisjointSets trees (nodes);
-    std::vector<std::vector<std::pair<Index, float>>> adjacent (nodes); // with lengths
-    ProgressLoop progress (run);
-    for (const CandidateEdge& edge : edges) {
-      progress.next ();
-      if (!trees.join (edge.a, edge.b)) {
-        outside.push_back (edge);
-        continue;
-      }
-      adjacent[edge.a].emplace_back (edge.b, edge.length);
-      adjacent[edge.b].emplace_back (edge.a, edge.length);
-    }
-    // Parents, depths and distances of each tree.
-    std::vector<Index> stack;
-    for (Index root = 0; root < nodes; ++root) {
-      if (parent_[root] != NONE)
-        continue;
-      stack.push_back (root);
-      parent_[root] = jump_[root] = root;
-      while (!stack.empty ()) {
-        progress.next ();
-        const Index x = stack.back ();
-        stack.pop_back ();
-        for (const auto& [y, length] : adjacent[x]) {
-          if (parent_[y] != NONE)
-            continue;
-          parent_[y] = x;
-          // Two jumps of equal length become one.
-          const Index up = jump_[x];
-          jump_[y] = depth_[x] - depth_[up] == depth_[up] - depth_[jump_[up]] ? jump_[up] : x;
-          depth_[y] = depth_[x] + 1;
-          root_distance_[y] = root_distance_[x] + length;
-          stack.push_back (y);
-        }
-      }
-    }
-  }
-
-  double pathLength (Index a, Index b) const
-  {
-    return root_distance_[a] + root_distance_[b] -
-           2.0 * root_distance_[lowestCommonAncestor (a, b)];
-  }
-
-  // The nodes on the path from a to b, both included.
-  std::vector<Index> path (Index a, Index b) const
-  {
-    const Index top = lowestCommonAncestor (a, b);
-    std::vector<Index> up, down;
-    for (Index x = a; x != top; x = parent_[x])
-      up.push_back (x);
-    for (Index x = b; x != top; x = parent_[x])
-      down.push_back (x);
-    up.push_back (top);
-    up.insert (up.end (), down.rbegin (), down.rend ());
-    return up;
-  }
-
-private:
-  // The lowest common ancestor of two nodes of one tree.
-  Index lowestCommonAncestor (Index a, Index b) const
-  {
-    if (depth_[a] < depth_[b])
-      std::swap (a, b);
-    while (depth_[a] > depth_[b])
-      a = depth_[jump_[a]] >= depth_[b] ? jump_[a] : parent_[a];
-    while (a != b) {
-      const std::vector<Index>& up = jump_[a] != jump_[b] ? jump_ : parent_;
-      a = up[a];
-      b = up[b];
-    }
-    return a;
-  }
-
-  std::vector<double> root_distance_; // along the tree
-  std::vector<Index> depth_;          // edges to the root
-  std::vector<Index> parent_, jump_;  // of each node; a root's are itself
-};
-
-// The longest cycle that an edge outside of the forest closes, as points; empty if there is none.
+// The longest cycle that one edge closes in a minimum spanning forest (Kruskal's algorithm), as
+// points; empty if there is none. O(c log c), and the lengths of all these cycles, most of which
+// are short.
+// \param edges by cost
 std::vector<Index>
-longestCycle (const SpanningForest& forest, const std::vector<CandidateEdge>& outside,
+longestCycle (const Positions& positions, const std::vector<CandidateEdge>& edges,
               const std::vector<Index>& candidates, const RunContext& run)
 {
-  constexpr double ROUNDING =
-      1e-9; // smaller differences of length count as ties; the first edge wins
-  const CandidateEdge* closing = nullptr;
-  double longest = 0.0;
-  ProgressLoop progress (run);
-  for (const CandidateEdge& edge : outside) {
-    progress.next ();
-    const double length = forest.pathLength (edge.a, edge.b) + edge.length;
-    if (length > longest * (1.0 + ROUNDING)) {
-      longest = length;
-      closing = &edge;
+  DisjointSets trees (candidates.size ());
+  std::vector<CandidateEdge> outside;
+  std::vector<std::vector<Index>> adjacent (candidates.size ());
+  for (const CandidateEdge& edge : edges)
+    if (trees.join (edge.a, edge.b)) {
+      adjacent[edge.a].push_back (edge.b);
+      adjacent[edge.b].push_back (edge.a);
+    }
+    else
+      outside.push_back (edge);
+  // The root of a tree is its own parent.
+  std::vector<Index> parent (candidates.size (), NONE), depth (candidates.size (), 0);
+  for (Index root = 0; root < candidates.size (); ++root) {
+    if (parent[root] != NONE)
+      continue;
+    parent[root] = root;
+    for (std::vector<Index> stack{root}; !stack.empty ();) {
+      const Index x = stack.back ();
+      stack.pop_back ();
+      for (const Index y : adjacent[x])
+        if (parent[y] == NONE) {
+          parent[y] = x;
+          depth[y] = depth[x] + 1;
+          stack.push_back (y);
+        }
     }
   }
-  std::vector<Index> cycle;
-  if (closing != nullptr)
-    for (Index candidate : forest.path (closing->a, closing->b))
-      cycle.push_back (candidates[candidate]);
-  return cycle.size () < 3 ? std::vector<Index>{} : cycle;
+  constexpr double ROUNDING =
+      1e-9; // smaller differences of length count as ties; the first edge wins
+  std::vector<Index> longest, cycle, way_back;
+  double longest_length = 0.0;
+  ProgressLoop progress (run, outside.size ());
+  for (auto [a, b, cost] : outside) {
+    progress.next ();
+    cycle.clear ();
+    way_back.clear ();
+    while (a != b) {
+      Index& lower = depth[a] >= depth[b] ? a : b;
+      (&lower == &a ? cycle : way_back).push_back (candidates[lower]);
+      lower = parent[lower];
+    }
+    cycle.push_back (candidates[a]);
+    cycle.insert (cycle.end (), way_back.rbegin (), way_back.rend ());
+    const double length = perimeter (positions, cycle);
+    if (cycle.size () >= 3 && length > longest_length * (1.0 + ROUNDING)) {
+      longest_length = length;
+      longest = cycle;
+    }
+  }
+  return longest;
 }
 
 Boundary
@@ -226,11 +152,9 @@ findLoop (const Positions& positions, const Stars& stars, const std::vector<floa
   const std::vector<Gap> gaps = findGaps (stars, spacing, circumradius_ratio, run);
   const std::vector<Index> candidates = pointsOf (gaps);
   boundary.candidates = candidates.size ();
-  std::vector<CandidateEdge> outside;
-  const SpanningForest forest (candidates.size (),
-                               joinCandidates (positions, spacing, gaps, candidates, run, limits),
-                               outside, run);
-  boundary.loop = longestCycle (forest, outside, candidates, run);
+  boundary.loop =
+      longestCycle (positions, joinCandidates (positions, spacing, gaps, candidates, run, limits),
+                    candidates, run);
   if (boundary.loop.empty ())
     return boundary;
   refineLoop (positions, stars, spacing, candidates, boundary.loop, run, limits);
