@@ -151,10 +151,9 @@ std::vector<Index>
 twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster,
                 const RunContext& run, const LoopLimits& limits = {});
 
-/// Undoes crossings by 2-opt in a window, and inserts candidates that lie on or beyond an edge of
-/// the loop where the detour is small. Otherwise such a point would be an interior point outside of
-/// the boundary, and the surface would fold there. O(points + c log n) for c candidates and a loop
-/// of n points.
+/// Inserts candidates that lie on or beyond an edge of the loop where the detour is small.
+/// Otherwise such a point would be an interior point outside of the boundary, and the surface would
+/// fold there. O(points + c log n) for c candidates and a loop of n points.
 /// \param stars      with normals, which give the side of the surface
 /// \param spacing    per point: local spacing
 /// \param candidates points that may lie on the boundary, on the loop or not

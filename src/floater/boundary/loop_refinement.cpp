@@ -10,11 +10,6 @@
 
 namespace pcl::floater {
 namespace {
-// Largest number of steps along the loop between two edges that 2-opt exchanges. A longer reversal
-// does not undo a crossing of neighbouring jags, and the time grows with the window.
-constexpr std::size_t WINDOW = 30;
-constexpr int UNTANGLE_PASSES = 10; // each only if the last one changed something
-constexpr int INSERTION_PASSES = 4; // a candidate may lie beyond an edge to one just inserted
 // Nearest points of the loop whose edges are tried for a candidate.
 constexpr std::size_t TRIED_LOOP_POINTS = 4;
 
@@ -22,38 +17,6 @@ double
 distance (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
 {
   return (positions[p] - positions[q]).norm ();
-}
-
-// 2-opt: reverses stretches of the loop while that shortens it.
-void
-untangle (const std::vector<Eigen::Vector3d>& positions, std::vector<Index>& loop,
-          const RunContext& run)
-{
-  ProgressLoop progress (run);
-  const std::size_t n = loop.size ();
-  const std::size_t window = std::min (WINDOW, n - 2);
-  const auto at = [&] (std::size_t i) -> Index& { return loop[i % n]; };
-  bool changed = n > 4;
-  for (int pass = 0; changed && pass < UNTANGLE_PASSES; ++pass) {
-    changed = false;
-    for (std::size_t i = 0; i < n; ++i) {
-      progress.next ();
-      for (std::size_t j = i + 2; j <= i + window; ++j) {
-        // Edges (i, i + 1) and (j, j + 1) become (i, j) and (i + 1, j + 1).
-        if ((j + 1) % n == i)
-          continue;
-        const double now =
-            distance (positions, at (i), at (i + 1)) + distance (positions, at (j), at (j + 1));
-        const double then =
-            distance (positions, at (i), at (j)) + distance (positions, at (i + 1), at (j + 1));
-        if (then < now * (1.0 - 1e-9)) {
-          for (std::size_t a = i + 1, b = j; a < b; ++a, --b)
-            std::swap (at (a), at (b));
-          changed = true;
-        }
-      }
-    }
-  }
 }
 
 // The direction from each edge of the loop to the surface, of length 1. The normals of the loop's
@@ -85,12 +48,12 @@ inwardDirections (const std::vector<Eigen::Vector3d>& positions, const Stars& st
   return inward;
 }
 
-// Inserts candidates that lie on or beyond an edge of the loop.
-// \return number of insertions
-std::size_t
-insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-              const std::vector<float>& spacing, const std::vector<Index>& candidates,
-              std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
+} // namespace
+
+void
+refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+            const std::vector<float>& spacing, const std::vector<Index>& candidates,
+            std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
 {
   const std::vector<Eigen::Vector3d> inward = inwardDirections (positions, stars, loop);
   std::vector<std::uint8_t> on_loop (positions.size (), 0);
@@ -140,21 +103,6 @@ insertBeyond (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
       wider.push_back (next->point);
   }
   loop = std::move (wider);
-  return insertions.size ();
-}
-
-} // namespace
-
-void
-refineLoop (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-            const std::vector<float>& spacing, const std::vector<Index>& candidates,
-            std::vector<Index>& loop, const RunContext& run, const LoopLimits& limits)
-{
-  untangle (positions, loop, run);
-  for (int pass = 0; pass < INSERTION_PASSES &&
-                     insertBeyond (positions, stars, spacing, candidates, loop, run, limits) > 0;
-       ++pass)
-    untangle (positions, loop, run);
 }
 
 } // namespace pcl::floater
