@@ -128,8 +128,9 @@ openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
 
 Boundary
 byTwoSegments (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-               const RunContext& run, const LoopLimits& limits)
+               const RunContext& run, LoopLimits limits)
 {
+  limits.largest_k = std::max (limits.largest_k, static_cast<Index> (options.cluster_k));
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   Boundary boundary;
   const std::vector<Index> candidates = openingAnglePoints (

@@ -54,8 +54,8 @@ struct LoopLimits
 
   /// k at which a segment begins to grow (TW 385, section 3.3).
   Index first_k = 3;
-  /// k up to which it is incremented. Beyond that, a segment continues over the bridges of the
-  /// neighbour graph. Tested on generated borders only; not certain.
+  /// k up to which it is incremented, or that of the cluster, if it is larger: its points are
+  /// connected by that many neighbours. Tested on generated borders only; not certain.
   Index largest_k = 16;
   /// Numbers of neighbours that are tried in the univariate parameterization; the shortest order is
   /// taken. Tested on generated borders, smooth and jagged; not certain.
@@ -139,8 +139,7 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
 /// The choices that TW 385 leaves open, or that differ here: the seed is the first point of the
 /// cluster (TW 385: a random one); a segment first takes the point nearest to the seed along the
 /// segment; neighbourhoods are symmetric; the parameterization uses the number of neighbours with
-/// the shortest order (LoopLimits::univariate_k); gaps wider than any neighbourhood are bridged
-/// where they are narrowest.
+/// the shortest order (LoopLimits::univariate_k).
 ///
 /// Weakness: where the cluster is a thick band, or the border turns back on itself within a
 /// neighbourhood, the order is not that along the border.

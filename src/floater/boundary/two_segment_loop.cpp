@@ -29,57 +29,7 @@ struct NeighborEdge
   double length; // distance
 };
 
-// An edge from one component of the graph to another: squared length, and both ends.
-using Bridge = std::tuple<double, Index, Index>;
-
-// Appends bridges until the graph is connected: in each round the shortest bridge from every
-// component (Boruvka's algorithm).
-void
-connect (std::vector<NeighborEdge>& edges, const std::vector<Eigen::Vector3d>& points,
-         const KdTree& tree, Index rank, const RunContext& run)
-{
-  constexpr double ROUNDING = 1.0 + 1e-15; // squaring a square root may round down
-  const std::size_t n = points.size ();
-  DisjointSets sets (n);
-  std::size_t components = n;
-  for (const NeighborEdge& edge : edges)
-    components -= sets.join (edge.a, edge.b) ? 1 : 0;
-  ProgressLoop progress (run);
-  while (components > 1) {
-    std::vector<Index> labels (n);
-    for (Index p = 0; p < n; ++p)
-      labels[p] = sets.find (p);
-    // In the order of the tree: where the run of points of one component begins.
-    std::vector<Index> begin (n, 0);
-    for (Index i = 1; i < n; ++i)
-      begin[i] = labels[tree.pointAt (i)] == labels[tree.pointAt (i - 1)] ? begin[i - 1] : i;
-    // By the label of the component.
-    std::vector<Bridge> shortest (n, {std::numeric_limits<double>::infinity (), NONE, NONE});
-    std::vector<Neighbor> found;
-    for (Index p = 0; p < n; ++p) {
-      progress.next ();
-      Bridge& bridge = shortest[labels[p]];
-      tree.nearestIf (
-          points[p], Eigen::Vector3d::Zero (), ROUNDING * std::sqrt (std::get<0> (bridge)), 1,
-          [&] (const Neighbor& other, const auto&) { return labels[other.point] != labels[p]; },
-          found,
-          [&] (Index first, Index last) {
-            return begin[last - 1] <= first && labels[tree.pointAt (first)] == labels[p];
-          });
-      for (const auto& [sqr_length, q] : found)
-        bridge = std::min (bridge, Bridge{sqr_length, std::min (p, q), std::max (p, q)});
-    }
-    for (const auto& [sqr_length, a, b] : shortest)
-      if (a != NONE && sets.join (a, b)) {
-        edges.push_back ({a, b, rank, std::sqrt (sqr_length)});
-        --components;
-      }
-  }
-}
-
-// The k nearest neighbours of every point as a symmetric, connected graph. Gaps that no
-// neighbourhood spans are bridged where they are narrowest, by edges of rank k. O(n (k + log n)),
-// where there are gaps O(n log^2 n) at most.
+// The k nearest neighbours of every point as a symmetric graph. O(n (k + log n)).
 // \return each pair once, with the smaller of its two ranks, ascending in (a, b)
 std::vector<NeighborEdge>
 neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunContext& run)
@@ -97,7 +47,6 @@ neighborGraph (const std::vector<Eigen::Vector3d>& points, Index k, const RunCon
         edges.push_back ({std::min (p, neighbor.point), std::max (p, neighbor.point), rank++,
                           std::sqrt (neighbor.sqr_distance)});
   }
-  connect (edges, points, tree, k, run);
   std::sort (edges.begin (), edges.end (), [] (const NeighborEdge& e, const NeighborEdge& f) {
     return std::tie (e.a, e.b, e.rank) < std::tie (f.a, f.b, f.rank);
   });
@@ -318,17 +267,25 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
   const Positions points = valuesAt (positions, cluster);
   std::vector<Index> segment1 = growSegment (points, 0, points.size () / 2 + 1, run, limits);
 
-  // Segment 2 begins at the end of segment 1 and takes all other points.
-  std::vector<std::uint8_t> in_segment1 (points.size (), 0);
-  for (const Index p : segment1)
-    in_segment1[p] = 1;
-  std::vector<Index> segment2{segment1.back ()};
-  for (Index p = 0; p < points.size (); ++p)
-    if (!in_segment1[p])
-      segment2.push_back (p);
-  const Index segment2_last =
-      growSegment (valuesAt (points, segment2), 0, segment2.size (), run, limits).back ();
-  std::swap (segment2[segment2_last], segment2.back ());
+  // Segment 2 grows from the end of segment 1 among all other points. Those that it does not reach
+  // are beside segment 1.
+  const auto others = [&points] (const std::vector<Index>& segment) {
+    std::vector<std::uint8_t> is_other (points.size (), 1);
+    for (const Index p : segment)
+      is_other[p] = 0;
+    std::vector<Index> list;
+    for (Index p = 0; p < points.size (); ++p)
+      if (is_other[p] != 0)
+        list.push_back (p);
+    return list;
+  };
+  const Index end = segment1.back ();
+  std::vector<Index> segment2 = others (segment1);
+  segment2.insert (segment2.begin (), end);
+  segment2 = valuesAt (segment2,
+                       growSegment (valuesAt (points, segment2), 0, segment2.size (), run, limits));
+  segment1 = others (segment2);
+  segment1.push_back (end);
 
   // The end of segment 2 is the start of segment 1.
   segment1.insert (segment1.begin (), segment2.back ());

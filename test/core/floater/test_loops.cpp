@@ -223,13 +223,6 @@ borders ()
          resample ({{0, 0}, {side, 0}, {side, height}, {0, height}}, 1.0))
       all.back ().second.emplace_back (p.x (), p.y (), 0.0);
   }
-  // Each dash has more points than a neighbourhood can have: only bridges lead to the next one.
-  for (const int dashes : {2, 3, 17}) {
-    all.emplace_back ("dashes " + std::to_string (dashes), Positions{});
-    for (int dash = 0; dash < dashes; ++dash)
-      for (int i = 0; i < 40; ++i)
-        all.back ().second.push_back (onCircle (2.0 * PI * (dash + 0.015 * i) / dashes));
-  }
   return all;
 }
 
