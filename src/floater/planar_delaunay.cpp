@@ -22,17 +22,13 @@ using Delaunay =
     CGAL::Delaunay_triangulation_2<Kernel,
                                    CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
-Kernel::Point_2
-toPoint (const Eigen::Vector2d& place)
-{
-  return {place.x (), place.y ()};
-}
+} // namespace
 
-// Marks the points that are not strictly inside of the loop, except the loop's own. Rounding may
-// put a point beyond the edge between two loop points.
-std::vector<std::uint8_t>
-outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
+TriangleMesh
+triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loop)
 {
+  // Points that are not strictly inside of the loop are left out, except its own. Rounding may put a
+  // point beyond the edge between two loop points.
   const std::size_t h = loop.size ();
   // Points within the circle around the origin that touches the nearest edge need no test.
   double sqr_safe = std::numeric_limits<double>::infinity ();
@@ -61,73 +57,34 @@ outsideLoop (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& l
         outside[p] = 1;
     }
   }
-  for (Index p : loop)
+  for (const Index p : loop)
     outside[p] = 0;
-  return outside;
+  for (std::size_t p = 0; p < uv.size (); ++p)
+    if (outside[p] != 0)
+      uv[p].setConstant (std::numeric_limits<double>::quiet_NaN ());
+  return triangulateHull (uv);
 }
 
-constexpr Index OUTSIDE = NONE;
-
-// Triangulates the finite points that are not left out. Marks the infinite faces as outside.
-// \return number of these points; fewer may be vertices, where some coincide
-std::size_t
-triangulate (const std::vector<Eigen::Vector2d>& uv, const std::vector<std::uint8_t>& is_left_out,
-             Delaunay& delaunay)
+TriangleMesh
+triangulateHull (const std::vector<Eigen::Vector2d>& uv)
 {
   std::vector<std::pair<Kernel::Point_2, Index>> sites;
   sites.reserve (uv.size ());
   for (Index p = 0; p < uv.size (); ++p)
-    if (uv[p].allFinite () && is_left_out[p] == 0)
-      sites.emplace_back (toPoint (uv[p]), p);
-  delaunay.insert (sites.begin (), sites.end ());
-  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
-    face->info () = delaunay.is_infinite (face) ? OUTSIDE : 0;
-  return sites.size ();
-}
-
-// Marks the faces at hull edges that are not loop edges as outside, and so on inwards.
-void
-markOutside (Delaunay& delaunay, const std::vector<Index>& loop, std::size_t points)
-{
-  std::vector<Index> successor (points, NONE);
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    successor[loop[i]] = loop[(i + 1) % loop.size ()];
-  std::vector<Delaunay::Face_handle> outside;
-  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
-    if (face->info () == OUTSIDE)
-      outside.push_back (face);
-  while (!outside.empty ()) {
-    const Delaunay::Face_handle face = outside.back ();
-    outside.pop_back ();
-    for (int i = 0; i < 3; ++i) {
-      const Delaunay::Face_handle inner = face->neighbor (i);
-      const Index from = face->vertex (Delaunay::cw (i))->info ();
-      if (inner->info () == OUTSIDE || successor[from] == face->vertex (Delaunay::ccw (i))->info ())
-        continue;
-      inner->info () = OUTSIDE;
-      outside.push_back (inner);
-    }
-  }
-}
-
-// Makes a mesh of the faces that are not outside.
-TriangleMesh
-makeMesh (Delaunay& delaunay, std::size_t points)
-{
+    if (uv[p].allFinite ())
+      sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
+  Delaunay delaunay (sites.begin (), sites.end ());
   TriangleMesh mesh;
-  mesh.triangle_of.assign (points, NONE);
+  mesh.triangle_of.assign (uv.size (), NONE);
   if (delaunay.dimension () < 2)
     return mesh;
   Index count = 0;
-  for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face)
-    if (face->info () != OUTSIDE)
-      face->info () = count++;
+  for (auto face = delaunay.all_faces_begin (); face != delaunay.all_faces_end (); ++face)
+    face->info () = delaunay.is_infinite (face) ? NONE : count++;
   mesh.triangles.resize (count);
   mesh.neighbors.resize (count);
   for (auto face = delaunay.finite_faces_begin (); face != delaunay.finite_faces_end (); ++face) {
     const Index t = face->info ();
-    if (t == OUTSIDE)
-      continue;
     for (int i = 0; i < 3; ++i) {
       const auto side = static_cast<std::size_t> (i);
       mesh.triangles[t][side] = face->vertex (i)->info ();
@@ -136,35 +93,6 @@ makeMesh (Delaunay& delaunay, std::size_t points)
     }
   }
   return mesh;
-}
-
-} // namespace
-
-TriangleMesh
-triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop)
-{
-  Delaunay delaunay;
-  const std::size_t sites = triangulate (uv, outsideLoop (uv, loop), delaunay);
-  // Of coinciding points, CGAL keeps any index; a loop point must be the vertex.
-  if (delaunay.number_of_vertices () < sites)
-    for (Index p : loop) {
-      Delaunay::Locate_type type{};
-      int side = 0;
-      const auto face = delaunay.locate (toPoint (uv[p]), type, side);
-      if (type == Delaunay::VERTEX)
-        face->vertex (side)->info () = p;
-    }
-  if (delaunay.dimension () == 2)
-    markOutside (delaunay, loop, uv.size ());
-  return makeMesh (delaunay, uv.size ());
-}
-
-TriangleMesh
-triangulateHull (const std::vector<Eigen::Vector2d>& uv)
-{
-  Delaunay delaunay;
-  triangulate (uv, std::vector<std::uint8_t> (uv.size (), 0), delaunay);
-  return makeMesh (delaunay, uv.size ());
 }
 
 } // namespace pcl::floater

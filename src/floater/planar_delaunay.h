@@ -9,15 +9,13 @@
 
 namespace pcl::floater {
 /// The Delaunay triangulation of points in the plane, by CGAL with exact predicates. Its boundary
-/// is the loop: slivers between the loop and the convex hull, which rounding leaves where the loop
-/// is nearly straight, are removed. Of coinciding points only one is a vertex, a loop point if
-/// there is one. The others, and points on or beyond the loop by rounding, have no triangle. O(n
-/// log n).
+/// is the loop. Of coinciding points only one is a vertex, a loop point if there is one. The others,
+/// and points on or beyond the loop by rounding, have no triangle. O(n log n).
 /// \param uv   per point; non-finite ones are left out
 /// \param loop points of a strictly convex polygon around the origin, anti-clockwise
 /// \return triangles anti-clockwise in the plane; none if all points lie on one line
 TriangleMesh
-triangulatePlane (const std::vector<Eigen::Vector2d>& uv, const std::vector<Index>& loop);
+triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loop);
 
 /// The Delaunay triangulation of points in the plane up to their convex hull. Of coinciding points
 /// only one is a vertex. O(n log n).

@@ -236,23 +236,6 @@ TEST (PlanarDelaunay, IsBoundedByTheLoop)
       places.uv.emplace_back (std::nan (""), 0.5);
       expectMesh (places, triangulateHull (places.uv), 2);
     }
-  // On slanted sides rounding puts some of the points inside of the hull.
-  Sites slanted;
-  slanted.uv = resample ({{-0.4, -0.5}, {0.5, -0.2}, {0.2, 0.5}, {-0.6, 0.3}}, 0.03);
-  slanted.loop = indices (slanted.uv.size ());
-  for (const Eigen::Vector3d& p : randomPoints (200, 3))
-    slanted.uv.emplace_back (0.3 * p.head<2> () - Eigen::Vector2d (0.2, 0.15));
-  expectMesh (slanted, triangulatePlane (slanted.uv, slanted.loop), 0);
-  // Cocircular points in a grid.
-  Sites grid;
-  grid.uv = resample ({{0, 0}, {12, 0}, {12, 12}, {0, 12}}, 1.0);
-  grid.loop = indices (grid.uv.size ());
-  for (int x = 1; x < 12; ++x)
-    for (int y = 1; y < 12; ++y)
-      grid.uv.emplace_back (x, y);
-  for (Eigen::Vector2d& p : grid.uv)
-    p = (p - Eigen::Vector2d (6.0, 6.0)) / 16.0;
-  expectMesh (grid, triangulatePlane (grid.uv, grid.loop), 0);
 }
 
 TEST (PlanarDelaunay, OfCoincidentPointsOneIsAVertexAndThatOfTheLoopIfThereIs)
