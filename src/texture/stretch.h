@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stretch of a texture, and its rounding to floats.
+// Stretch of a texture, and what rounding to floats has flipped.
 #pragma once
 
 #include "core/types.h"
@@ -44,13 +44,9 @@ StretchSums
 stretchOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
            const std::vector<Triangle>& corners, const std::vector<Eigen::Vector2d>& uv);
 
-/// Moves corners of flipped triangles by a few steps of single precision, if this reduces the
-/// flipped triangles around them. Exact tests. O(triangles) if there are none. One thread,
-/// deterministic.
-/// \param         triangles corners as indices of uv
-/// \param[in,out] uv        in the unit square, and afterwards
-/// \return triangles that are still flipped, ascending
+/// The triangles that are not anti-clockwise in the plane, ascending. Exact.
+/// \param triangles corners as indices of uv
 std::vector<Index>
-repairRounding (const std::vector<Triangle>& triangles, std::vector<Eigen::Vector2f>& uv);
+flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2f>& uv);
 
 } // namespace pcl::floater

@@ -139,7 +139,7 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
     charts = std::move (kept);
     result.gutter = packCharts (charts, limits.atlas, run);
     takeCoordinates (charts, positions.size (), triangles.size (), result);
-    flipped = repairRounding (result.corners, result.coordinates);
+    flipped = flippedTriangles (result.corners, result.coordinates);
   }
   result.chart_count = charts.size ();
   result.flipped = flipped.size ();

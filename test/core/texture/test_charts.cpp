@@ -264,13 +264,6 @@ TEST (Smoothing, LevelsSteps)
   EXPECT_LT (steepest (smoothNoise (connected (steps), steps.positions, {}, 1)), 0.85);
 }
 
-TEST (Rounding, WhatCannotBeRightedIsCounted)
-{
-  // The last triangle is upside down by far, whichever corner moves a little.
-  std::vector<Eigen::Vector2f> uv{{0, 0}, {1, 0}, {1, 1}, {0.5, -0.5}};
-  EXPECT_EQ (repairRounding ({{0, 1, 2}, {0, 1, 3}}, uv).size (), 1U);
-}
-
 TEST (Untangling, UndoesDetailsOnly)
 {
   const MeshPiece chart = chartOf (sheet (12));

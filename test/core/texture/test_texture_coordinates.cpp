@@ -338,25 +338,5 @@ TEST (TextureCoordinates, ProgressAndCancellation)
              RunStatus::INTERNAL_ERROR);
 }
 
-// The inner points of a grid that is only some steps of single precision wide.
-TEST (Rounding, FlippedTrianglesAreRighted)
-{
-  constexpr Index SIDE = 6;
-  const Mesh sheet = samples::sheet (SIDE);
-  RandomStream random (2);
-  std::vector<Eigen::Vector2f> uv;
-  for (Index i = 0; i < sheet.positions.size (); ++i) {
-    const Eigen::Array2d at (i % (SIDE + 1), i / (SIDE + 1));
-    const Eigen::Array2d noise (random.uniform (), random.uniform ());
-    const bool is_inner = at.minCoeff () > 0.0 && at.maxCoeff () < SIDE;
-    const Eigen::Array2d steps = 8.0 * at + ((is_inner ? 12.0 : 0.0) * (noise - 0.5)).round ();
-    uv.emplace_back ((0.5 + 0x1p-24 * steps).cast<float> ());
-  }
-  const auto overlaps = [&] { return countOverlaps (sheet.triangles, uv); };
-  EXPECT_GT (overlaps (), 0U);
-  EXPECT_EQ (repairRounding (sheet.triangles, uv).size (), 0U);
-  EXPECT_EQ (overlaps (), 0U);
-}
-
 } // namespace
 } // namespace pcl::floater
