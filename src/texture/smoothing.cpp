@@ -41,12 +41,10 @@ struct Smoother
   const SmoothingLimits& limits;
   const RunContext& run;
   MeshRings rings{mesh};
-  std::vector<double> edge_bends{}; // per edge, as 3 triangle + side; 0 on the boundary
-  std::vector<Bends> bends_at{};    // per point
+  std::vector<Bends> bends_at{}; // per point
 
   std::vector<Eigen::Vector3d> smoothed ()
   {
-    edge_bends.resize (3 * mesh.triangles.size ());
     bends_at.resize (original.size ());
     std::vector<Eigen::Vector3d> current = original;
     std::vector<std::uint8_t> is_noisy (original.size (), 1);
@@ -116,25 +114,17 @@ private:
                      const std::vector<std::uint8_t>& is_marked)
   {
     const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
-    parallelPoints (run, mesh.triangles.size (), [&] (Index t) {
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const MeshEdge edge{t, side}, mate = mesh.mate (edge);
-        if (mate.triangle != NONE && mate.triangle > t &&
-            (is_marked[mesh.from (edge)] != 0 || is_marked[mesh.to (edge)] != 0))
-          // Only this thread writes both.
-          edge_bends[3 * std::size_t{t} + side] =
-              edge_bends[3 * std::size_t{mate.triangle} + mate.side] =
-                  bendAt (positions, area_vectors, edge);
-      }
-    });
     visit ([&] (Index p) {
       if (is_marked[p] == 0)
         return;
       Bends& bends = bends_at[p] = {};
       for (const Index id : rings.leaving.row (p)) {
-        const double bend = edge_bends[id];
+        const MeshEdge edge{id / 3, static_cast<std::uint8_t> (id % 3)};
+        if (mesh.neighbors[edge.triangle][edge.side] == NONE)
+          continue;
+        const double bend = bendAt (positions, area_vectors, edge);
         (bend > 0.0 ? bends.outwards : bends.inwards) += std::abs (bend);
-        bends.edges += mesh.neighbors[id / 3][id % 3] != NONE ? 1 : 0;
+        ++bends.edges;
       }
     });
   }
