@@ -72,23 +72,12 @@ public:
   /// count as a whole.
   std::size_t count (const Eigen::Vector3d& query, double radius) const;
 
-  /// The point at a place of the tree's own order.
-  Index pointAt (Index place) const { return items_[place].point; }
-
-  /// Skips no box.
-  struct NoSkip
-  {
-    bool operator() (Index, Index) const { return false; }
-  };
-
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. Points behind the plane through `query` with the normal `ahead` may be skipped,
   /// and accept must reject them; a zero normal means no plane. Overwrites the result.
-  /// \param skip (first, last) is true for places whose points accept would reject
-  template <typename Accept, typename Skip = NoSkip>
+  template <typename Accept>
   void nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
-                  std::size_t k, Accept&& accept, std::vector<Neighbor>& result,
-                  const Skip& skip = {}) const;
+                  std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const;
 
 private:
   struct Node
@@ -185,25 +174,23 @@ KdTree::search (Index node, const Eigen::Vector3d& query, Visit& visit) const
     search (left_first ? here.right : node + 1, query, visit);
 }
 
-template <typename Accept, typename Skip>
+template <typename Accept>
 void
 KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
-                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result,
-                   const Skip& skip) const
+                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const
 {
   struct Accepted
   {
     Nearest nearest;
     const Eigen::Vector3d &query, &ahead;
     Accept& accept;
-    const Skip& skip;
 
     double reach () const { return nearest.reach (); }
     bool skips (const Node& node) const
     {
       const Eigen::Vector3d farthest =
           (ahead.array () < 0.0).select (node.box.min (), node.box.max ()) - query;
-      return skip (node.first, node.last) || ahead.dot (farthest) < 0.0;
+      return ahead.dot (farthest) < 0.0;
     }
     void add (const Neighbor& candidate, const Eigen::Vector3d& position)
     {
@@ -211,8 +198,7 @@ KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, d
         nearest.add (candidate, position);
     }
   };
-  Accepted visit{
-      {result, std::min (k, items_.size ()), radius * radius}, query, ahead, accept, skip};
+  Accepted visit{{result, std::min (k, items_.size ()), radius * radius}, query, ahead, accept};
   search (0, query, visit);
   visit.nearest.end ();
 }
