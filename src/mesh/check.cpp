@@ -41,6 +41,21 @@ spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   return spacing;
 }
 
+LoopSummary
+summaryOf (const BoundaryLoop& loop, const Points& points)
+{
+  LoopSummary summary;
+  summary.points = loop.points.size ();
+  // The sum may overflow although all coordinates are finite.
+  summary.length = std::min (points.scale * loop.length, std::numeric_limits<double>::max ());
+  summary.width = points.scale * loop.width;
+  summary.width_spacings = loop.spacing > 0.0 ? loop.width / loop.spacing : 0.0;
+  summary.at = NONE;
+  for (const Index p : loop.points)
+    summary.at = std::min (summary.at, points.cloud_index[p]);
+  return summary;
+}
+
 namespace {
 // Length of an edge in local spacings, and its ends, the smaller one first.
 struct LongEdge
@@ -169,21 +184,6 @@ findSeveralFans (const TriangleMesh& mesh, const RunContext& run)
     if (in_fan != corners[p])
       found.add ({1, p});
   });
-}
-
-LoopSummary
-summaryOf (const BoundaryLoop& loop, const Points& points)
-{
-  LoopSummary summary;
-  summary.points = loop.points.size ();
-  // The sum may overflow although all coordinates are finite.
-  summary.length = std::min (points.scale * loop.length, std::numeric_limits<double>::max ());
-  summary.width = points.scale * loop.width;
-  summary.width_spacings = loop.spacing > 0.0 ? loop.width / loop.spacing : 0.0;
-  summary.at = NONE;
-  for (const Index p : loop.points)
-    summary.at = std::min (summary.at, points.cloud_index[p]);
-  return summary;
 }
 
 void

@@ -21,6 +21,10 @@ std::vector<float>
 spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                const RunContext& run);
 
+/// A loop in units of the cloud.
+LoopSummary
+summaryOf (const BoundaryLoop& loop, const Points& points);
+
 /// Thresholds of the examination. They do not change a mesh.
 struct CheckLimits
 {

@@ -90,12 +90,10 @@ struct RangeCheck
     if (holes.unit == unit)
       (*this) (row, holes.largest_hole, NumberRange{0, NO_LIMIT});
   }
-  template <typename Enum, std::size_t N>
-  void operator() (const OptionRow&, Enum, const Choices<Enum, N>&)
+  template <typename... Other>
+  void operator() (const OptionRow&, const Other&...)
   {
   }
-  void operator() (const OptionRow&, bool) {}
-  void operator() (const OptionRow&, const ViewOptions&) {}
 };
 
 std::string

@@ -186,16 +186,14 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
   std::size_t too_deep = 0;
   const BoundaryLoop* widest = nullptr;
   for (const BoundaryLoop& loop : surface.doubtful_loops) {
-    LoopDecision decision;
-    decision.points = loop.points.size ();
-    decision.width = loop.width * points.scale;
-    decision.width_spacings = loop.spacing > 0.0 ? loop.width / loop.spacing : 0.0;
-    decision.at = points.cloud_index[loop.points.front ()];
-    for (const Index p : loop.points)
-      decision.at = std::min (decision.at, points.cloud_index[p]);
-    decision.stays_open = loop.keep_open;
-    decision.probability = loop.judgement.probability ();
-    decision.is_too_deep = loop.judgement.is_too_deep;
+    const LoopSummary summary = summaryOf (loop, points);
+    const LoopDecision decision{summary.points,
+                                summary.width,
+                                summary.width_spacings,
+                                summary.at,
+                                loop.keep_open,
+                                loop.judgement.probability (),
+                                loop.judgement.is_too_deep};
     if (decision.is_too_deep && decision.stays_open && decision.probability <= 0.5) {
       ++too_deep;
       if (widest == nullptr || loop.width > widest->width)
