@@ -33,9 +33,6 @@ public:
 
   std::vector<FacingObject> judge ()
   {
-    const bool is_scan = hints_.sensor && !hints_.faces_sensor &&
-                         (hints_.wanted == Facing::AUTO || hints_.wanted == Facing::NORMALS) &&
-                         isSeenFrom (*hints_.sensor);
     std::vector<Index> open;
     for (Index o = 0; o < judged_.size (); ++o) {
       const FacingSums& sums = objects_.sums[o];
@@ -66,7 +63,8 @@ public:
       }
       else if (!by_side && hints_.faces_sensor)
         decide (o, FacingRule::SENSOR, false, 1.0);
-      else if (!by_side && is_scan && std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
+      else if (!by_side && hints_.sensor &&
+               std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
         decideBySensor (o);
       else if (!by_side && isRoom (sums, limits_)) {
         is_body_[o] = 0; // furniture is no wall of a hollow
@@ -187,24 +185,6 @@ private:
                       objects_.sign (component) / area * normal, lines);
     }
     return lines;
-  }
-
-  // Whether most of the mesh is visible from the sensor.
-  bool isSeenFrom (const Eigen::Vector3d& sensor)
-  {
-    double area = 0.0;
-    for (const FacingSums& sums : objects_.sums)
-      area += sums.area;
-    SightLineSampler sampler (area, limits_.lines);
-    std::vector<SightLine> lines;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      sampler.add (t, areaVectorOf (mesh_.triangles[t], positions_).norm (),
-                   middleOf (mesh_.triangles[t], positions_), Eigen::Vector3d::UnitZ (), lines);
-    rays ();
-    const auto free = std::count_if (lines.begin (), lines.end (), [&] (const SightLine& line) {
-      return isFree (line, sensor - line.middle, [] (Index, double at) { return at < 1.0; });
-    });
-    return static_cast<double> (free) >= limits_.seen_share * static_cast<double> (lines.size ());
   }
 
   const TriangleRays& rays ()

@@ -39,9 +39,8 @@ struct FacingLimits
   std::size_t triangles_per_line = 8; ///< smaller objects get fewer lines, ...
   std::size_t fewest_lines = 64;      ///< ... but at least this number. Both limit the time
 
-  /// Share of the mesh that is visible from the sensor; and of an object, area facing the sensor
-  /// minus area facing away, by solid angle. If both are above, it was seen from there: one scan
-  /// has 1 minus its noise; a whole body, half hidden, has 0.
+  /// Share of an object: area facing the sensor minus area facing away, by solid angle. Above, it
+  /// was seen from there: one scan has 1 minus its noise; a whole body, half hidden, has 0.
   double seen_share = 0.8;
 
   /// Area of a component whose input normals point to one side minus the other, as a share of its
