@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Triangles in a tree of boxes. About 12 bytes per triangle. O(n) to build, in parallel except for
+/// Triangles in a tree of boxes. About 32 bytes per triangle. O(n) to build, in parallel except for
 /// the sorting. Rays may be cast by several threads.
 class TriangleRays
 {
@@ -21,8 +21,15 @@ public:
                 const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
       : triangles_ (triangles), positions_ (positions),
         order_ (orderByPoints (triangles, positions.size ())),
-        tree_ ((order_.size () + GROUP - 1) / GROUP,
-               [this] (std::size_t group) { return boxOf (group); }, run)
+        tree_ (
+            order_.size (),
+            [this] (std::size_t i) {
+              Eigen::AlignedBox3d box;
+              for (const Index p : triangles_[order_[i]])
+                box.extend (positions_[p]);
+              return box;
+            },
+            run)
   {
   }
 
@@ -34,29 +41,13 @@ public:
   void forHits (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                 Visit&& visit) const
   {
-    tree_.forAlongRay (origin, direction, [&] (std::size_t group) {
-      for (std::size_t i = group * GROUP; i < std::min (order_.size (), (group + 1) * GROUP); ++i) {
-        const double at = hit (order_[i], origin, direction);
-        if (at > 0.0 && visit (order_[i], at))
-          return true;
-      }
-      return false;
+    tree_.forAlongRay (origin, direction, [&] (std::size_t i) {
+      const double at = hit (order_[i], origin, direction);
+      return at > 0.0 && visit (order_[i], at);
     });
   }
 
 private:
-  // Triangles in one box of the tree: larger groups mean fewer boxes and more tests. Measured.
-  static constexpr std::size_t GROUP = 4;
-
-  Eigen::AlignedBox3d boxOf (std::size_t group) const
-  {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = group * GROUP; i < std::min (order_.size (), (group + 1) * GROUP); ++i)
-      for (const Index p : triangles_[order_[i]])
-        box.extend (positions_[p]);
-    return box;
-  }
-
   // Parameter of the intersection along the ray; 0 if there is none. The ray hits if the volumes of
   // the tetrahedra of ray and edges have one sign. Both triangles of an edge compute exactly opposite
   // volumes, so no ray slips between them.
