@@ -92,7 +92,6 @@ public:
         largest_angles_ (PI + limits.angle * DEGREE)
   {
     normals_.resize (mesh.triangles.size ());
-    has_changed_.resize (mesh.triangles.size (), 0);
     parallelRanges (run, normals_.size (), [&] (std::size_t first, std::size_t last) {
       for (std::size_t t = first; t < last; ++t)
         normals_[t] = normalOf (mesh.triangles[t]);
@@ -102,48 +101,26 @@ public:
   std::size_t run ()
   {
     // Most edges need no flip. All are tested on all threads before the first flip, and those
-    // around changed triangles again.
+    // around a flipped edge again.
     std::vector<std::uint8_t> sides (mesh_.triangles.size (), 0); // to flip, as bits
     parallelRanges (run_, sides.size (), [&] (std::size_t first, std::size_t last) {
       for (auto t = static_cast<Index> (first); t < last; ++t)
         for (std::uint8_t side = 0; side < 3; ++side)
-          if (isFirstOf ({t, side}) && isBetterFlipped ({t, side}))
+          if (const Index other = mesh_.neighbors[t][side];
+              other != NONE && t < other && isBetterFlipped ({t, side}))
             sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
     });
-    ProgressLoop progress (run_, mesh_.triangles.size ());
-    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
+    ProgressLoop progress (run_, sides.size ());
+    for (Index t = 0; t < sides.size (); ++t) {
       progress.next ();
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        if (!isFirstOf ({t, side}) ||
-            (((sides[t] >> side) & 1U) == 0 && !hasChangedAround ({t, side})))
-          continue;
-        stack_.push_back ({t, side});
-        empty ();
-      }
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (((sides[t] >> side) & 1U) != 0)
+          flipFrom ({t, side});
     }
     return flips_;
   }
 
 private:
-  // Whether an edge is inside, and its triangle is the first one of the two.
-  bool isFirstOf (MeshEdge e) const
-  {
-    const Index other = mesh_.neighbors[e.triangle][e.side];
-    return other != NONE && e.triangle < other;
-  }
-
-  // Whether a triangle that affects an edge has changed.
-  bool hasChangedAround (MeshEdge e) const
-  {
-    const Index other = mesh_.neighbors[e.triangle][e.side];
-    const auto isChanged = [this] (Index t) { return t != NONE && has_changed_[t] != 0; };
-    const auto isChangedBeside = [&] (Index t) {
-      const std::array<Index, 3>& beside = mesh_.neighbors[t];
-      return std::any_of (beside.begin (), beside.end (), isChanged);
-    };
-    return isChangedBeside (e.triangle) || isChangedBeside (other);
-  }
-
   Eigen::Vector3d towardsSensor (Index p) const
   {
     return rays_.are_parallel ? -rays_.parallel : Eigen::Vector3d (-rays_.directions[p]);
@@ -154,8 +131,10 @@ private:
     return areaVector (positions_[t[0]], positions_[t[1]], positions_[t[2]]).normalized ();
   }
 
-  void empty ()
+  // Flips an edge if that is better, then those around it.
+  void flipFrom (MeshEdge first)
   {
+    stack_.push_back (first);
     while (!stack_.empty ()) {
       const MeshEdge e = stack_.back ();
       stack_.pop_back ();
@@ -166,12 +145,12 @@ private:
         continue;
       mesh_.flip (e);
       ++flips_;
-      for (const Index t : {e.triangle, other}) {
+      for (const Index t : {e.triangle, other})
         normals_[t] = normalOf (mesh_.triangles[t]);
-        has_changed_[t] = 1;
-        for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
-          stack_.push_back ({t, side});
-      }
+      for (const Index t : {e.triangle, other})
+        for (const Index beside : mesh_.neighbors[t])
+          for (std::uint8_t side = 0; beside != NONE && side < 3; ++side)
+            stack_.push_back ({beside, side});
     }
   }
 
@@ -233,8 +212,7 @@ private:
   const ViewFlipLimits& limits_;
   RunContext run_;
   double largest_angles_;
-  std::vector<Eigen::Vector3d> normals_;  // of the triangles, unit length
-  std::vector<std::uint8_t> has_changed_; // of each triangle: by a flip
+  std::vector<Eigen::Vector3d> normals_; // of the triangles, unit length
   std::vector<MeshEdge> stack_;
   std::size_t flips_ = 0;
 };
