@@ -78,7 +78,7 @@ public:
     // around.
     std::optional<Found> best;
     for (const RatedViewpoint& start : keepApart (candidates, APART, limits_.by_rows))
-      if (takeBetter (refine (start.viewpoint, step, best), best))
+      if (takeBetter (refine (start.viewpoint, step), best))
         break;
     return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
   }
@@ -125,7 +125,7 @@ public:
     candidates.resize (std::min (candidates.size (), limits_.by_rays));
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
-      if (!takeBetter (refineWithFar (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
+      if (!takeBetter (refine (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
           may_be_far_)
         takeBetter (refine (mirrored (candidate.viewpoint)), found);
       if (found && isDetermined (found->viewpoint))
@@ -258,17 +258,6 @@ private:
     return candidates;
   }
 
-  // Areas hardly separate far viewpoints: parallel rays are tried first.
-  std::optional<Found> refineWithFar (const Viewpoint& viewpoint) const
-  {
-    constexpr double FAR = 1.5; // bounding boxes
-    const Eigen::Vector3d offset = box_.center () - viewpoint.place;
-    if (may_be_far_ && !viewpoint.is_far && offset.norm () > FAR)
-      if (const std::optional<Found> found = refine ({offset.normalized (), true}))
-        return found;
-    return refine (viewpoint);
-  }
-
   bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                    const EvidenceLimits& limits, const EvidenceExcess& excess) const
   {
@@ -280,21 +269,17 @@ private:
 
   // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead from far off,
   // where single rays do not. In a narrow valley, the search ends early: it begins again from there.
-  // \param known what another start has led to; nothing is found if this one leads there too
-  std::optional<Found> refine (const Viewpoint& start, double step = AREA_ERROR,
-                               const std::optional<Found>& known = {}) const
+  std::optional<Found> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
     constexpr double CLOSER = 0.16, // the step after two rounds
         CLEARLY = 0.9;              // by hand
     std::optional<Found> best;
-    takeBetter (refineBy (start, step, true, known), best);
-    if (best && known && best->cost == known->cost)
-      return {};
+    takeBetter (refineBy (start, step, true), best);
     if (!best || !best->is_even)
-      takeBetter (refineBy (start, step, false, known), best);
+      takeBetter (refineBy (start, step, false), best);
     for (double cost = std::numeric_limits<double>::infinity (); best && best->cost < cost;) {
       cost = CLEARLY * best->cost;
-      takeBetter (refineBy (best->viewpoint, CLOSER * step, true, {}), best);
+      takeBetter (refineBy (best->viewpoint, CLOSER * step, true), best);
     }
     return best;
   }
@@ -305,32 +290,18 @@ private:
                             viewpoint, evidence_, run_);
   }
 
-  // Along a far direction, nothing is beside.
-  bool explains (const Viewpoint& viewpoint, const std::vector<RayPatch>& patches) const
-  {
-    return !viewpoint.is_far && explainsDensity (positions_, patches, viewpoint, evidence_, run_);
-  }
-
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
-  // \param known where the descent ends if it comes within its step
-  std::optional<Found> refineBy (Viewpoint viewpoint, double step, bool with_rows,
-                                 const std::optional<Found>& known) const
+  std::optional<Found> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
   {
     constexpr std::size_t EARLY = 3; // rounds
-    bool is_explained = false;
     std::vector<RayPatch> patches;
     const auto findPatches = [&] (const EvidenceLimits& limits) {
       return findRayPatches (positions_, viewpoint, limits, run_);
     };
-    const auto goesOn = [&] (const EvidenceLimits& limits, const EvidenceExcess& excess) {
-      if (is_explained || !isHopeless (patches, viewpoint, limits, excess))
-        return true;
-      return is_explained = explains (viewpoint, findPatches (evidence_));
-    };
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
       patches = findPatches (limits);
-      if (round == EARLY && !goesOn (limits, limits_.early_from_far))
+      if (round == EARLY && isHopeless (patches, viewpoint, limits, limits_.early_from_far))
         return {};
       const auto cost = [&] (const Viewpoint& v) {
         return findRaySpread (positions_, patches, v, with_rows, run_);
@@ -338,19 +309,19 @@ private:
       viewpoint =
           patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
               .viewpoint;
-      if (known && known->viewpoint.is_far == viewpoint.is_far &&
-          (known->viewpoint.place - viewpoint.place).norm () < step)
-        return known;
       step *= 0.4;
-      if (!goesOn (limits, round >= EARLY     ? limits_.late
-                           : viewpoint.is_far ? limits_.early_from_far
-                                              : limits_.early))
+      if (isHopeless (patches, viewpoint, limits,
+                      round >= EARLY     ? limits_.late
+                      : viewpoint.is_far ? limits_.early_from_far
+                                         : limits_.early))
         return {};
     }
     patches = findPatches (evidence_);
     const bool is_even = isSeenFromThere (
         findRayEvidence (positions_, patches, viewpoint, evidence_, run_), evidence_);
-    if (!is_even && !explains (viewpoint, patches))
+    // Along a far direction, nothing is beside.
+    if (!is_even &&
+        (viewpoint.is_far || !explainsDensity (positions_, patches, viewpoint, evidence_, run_)))
       return {};
     return Found{findRaySpread (positions_, patches, viewpoint, true, run_), viewpoint, is_even};
   }
