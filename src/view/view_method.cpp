@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_method.h"
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"
 #include "mesh/trimming.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 namespace pcl::floater {
@@ -47,47 +49,36 @@ closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& 
   return fillHoles (mesh, loops, points.positions, cost, settings.surface.hole_filling, run);
 }
 
-// Whether all triangles around some point of a patch are steps: it may lie off the surface.
-bool
-hasInnerPoint (const TriangleMesh& mesh, const std::vector<Index>& patch,
-               const std::vector<std::uint8_t>& is_step)
-{
-  std::vector<Index> fan;
-  for (const Index t : patch)
-    for (const Index p : mesh.triangles[t]) {
-      mesh.fan (p, fan);
-      if (std::all_of (fan.begin (), fan.end (), [&] (Index u) { return is_step[u] != 0; }))
-        return true;
-    }
-  return false;
-}
-
 // Unmarks short steps. A depth step is a closed line, or ends at a gap or another step; a few
-// triangles alone are noise. `is_gap` has an entry for each triangle.
+// triangles alone are noise, unless they are all around a point, which may lie off the surface.
+// `is_gap` has an entry for each triangle.
 void
 dropShortSteps (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_gap,
                 std::size_t shortest, std::vector<std::uint8_t>& is_step)
 {
-  std::vector<std::uint8_t> is_seen (is_step.size (), 0);
-  std::vector<Index> patch;
-  for (Index first = 0; first < is_step.size (); ++first) {
-    if (is_step[first] == 0 || is_seen[first] != 0)
-      continue;
-    patch.assign (1, first);
-    is_seen[first] = 1;
-    bool ends_at_gap = false;
-    for (std::size_t i = 0; i < patch.size (); ++i)
-      for (const Index other : mesh.neighbors[patch[i]]) {
-        ends_at_gap = ends_at_gap || other == NONE || is_gap[other] != 0;
-        if (other == NONE || is_step[other] == 0 || is_seen[other] != 0)
-          continue;
-        is_seen[other] = 1;
-        patch.push_back (other);
+  DisjointSets patches (is_step.size ());
+  for (Index t = 0; t < is_step.size (); ++t)
+    for (const Index other : mesh.neighbors[t])
+      if (is_step[t] != 0 && other != NONE && is_step[other] != 0)
+        patches.join (t, other);
+  std::vector<Index> fan;
+  std::vector<std::size_t> lengths (is_step.size (), 0); // of each patch, by its representative
+  for (Index t = 0; t < is_step.size (); ++t)
+    if (is_step[t] != 0) {
+      const std::array<Index, 3>& beside = mesh.neighbors[t];
+      bool is_long = std::any_of (beside.begin (), beside.end (), [&] (Index other) {
+        return other == NONE || is_gap[other] != 0;
+      });
+      for (const Index p : mesh.triangles[t]) {
+        mesh.fan (p, fan);
+        is_long = is_long ||
+                  std::all_of (fan.begin (), fan.end (), [&] (Index u) { return is_step[u] != 0; });
       }
-    if (patch.size () < shortest && !ends_at_gap && !hasInnerPoint (mesh, patch, is_step))
-      for (const Index t : patch)
-        is_step[t] = 0;
-  }
+      lengths[patches.find (t)] += is_long ? shortest : 1;
+    }
+  for (Index t = 0; t < is_step.size (); ++t)
+    if (lengths[patches.find (t)] < shortest)
+      is_step[t] = 0;
 }
 
 // The front of each component: towards the sensor, unless it is far away.
@@ -124,19 +115,16 @@ isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimi
   // A few patches suffice to reject most wrong viewpoints, with a looser threshold.
   constexpr std::size_t FEW = 8;
   constexpr double LENIENT = 2.0;
-  EvidenceLimits round = limits;
-  round.patches = std::min (limits.patches, FEW);
   RayEvidence evidence;
   std::vector<RayPatch> patches;
-  const auto look = [&] {
+  for (const std::size_t count : {std::min (limits.patches, FEW), limits.patches}) {
+    EvidenceLimits round = limits;
+    round.patches = count;
     patches = findRayPatches (points.positions, viewpoint, round, run);
-    evidence = findRayEvidence (points.positions, patches, viewpoint, round, run);
-  };
-  look ();
-  if (evidence.nearShare () > LENIENT * limits.crossing_share)
-    return false;
-  round = limits;
-  look ();
+    evidence = findRayEvidence (points.positions, patches, viewpoint, limits, run);
+    if (evidence.nearShare () > LENIENT * limits.crossing_share)
+      return false;
+  }
   return isSeenFromThere (evidence, limits) ||
          explainsDensity (points.positions, patches, viewpoint, limits, run);
 }
