@@ -82,6 +82,22 @@ reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double ra
   return found.size () == wanted ? std::sqrt (found.back ().sqr_distance) : radius;
 }
 
+// Distance to which far neighbours of a point are searched, by its nearest neighbours. Where points on
+// a line are strewn, those nearest may be close to each other by chance, and tell nothing of the
+// steps around; the whole row, which goes to either side, does.
+double
+farthestFrom (const std::vector<Eigen::Vector3d>& positions, Index p, Row nearest, double spacing,
+              const ReachLimits& limits)
+{
+  if (nearest.size () == 0)
+    return limits.farthest * spacing;
+  // With even steps on a line, the mean distance to the nearest six is two steps; in a plane, the row
+  // gives less than this mean.
+  const double steps = static_cast<double> (nearest.size ()) / 2.0;
+  const double last = (positions[nearest[nearest.size () - 1]] - positions[p]).norm ();
+  return limits.farthest * std::max (spacing, 2.0 * last / steps);
+}
+
 } // namespace
 
 std::optional<Line>
@@ -158,7 +174,8 @@ findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& 
       double smaller = 0.0;
       for (const bool is_first : {true, false}) {
         std::vector<Neighbor>& found = found_on[is_first ? 0 : 1];
-        const double farthest = limits.farthest * static_cast<double> (spacing[p]);
+        const double farthest =
+            farthestFrom (positions, p, row, static_cast<double> (spacing[p]), limits);
         // If all that the last point has found are beside this one, the nearest are no farther.
         double bound = 0.0;
         const bool is_bounded =
@@ -307,7 +324,9 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   added_.clear ();
-  const double farthest = limits_.farthest * static_cast<double> (planes_.spacing[p]);
+  const double farthest =
+      farthestFrom (positions_, p, planes_.neighbors.first (p, nearest),
+                    static_cast<double> (planes_.spacing[p]), limits_);
   const double sqr_searched =
       nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();
   const Centre centre{p, frame, row, sqr_searched, farthest};

@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl::floater {
 namespace {
@@ -12,6 +13,13 @@ constexpr double LEAST_AREA = 1e-9;  // doubled, over the sum of the squared edg
                                      // of needles finite and comparable
 constexpr double LARGEST_AREA = 1e9; // doubled, over the squared spacing, which may be 0: keeps the
                                      // costs of large triangles finite
+
+double
+shapeCost (double cotangents, double needle_cost)
+{
+  return cotangents <= needle_cost ? cotangents
+                                   : needle_cost * (1.0 + std::log (cotangents / needle_cost));
+}
 } // namespace
 
 TriangleCost::Value
@@ -37,7 +45,7 @@ TriangleCost::value (Index a, Index b, Index c) const
   const double turned =
       limits_.turned_cost *
       std::max (0.0, limits_.turned_cosine - agreement (a, b, c, area_vector, double_area));
-  Value result{area_vector, cotangents + turned};
+  Value result{area_vector, shapeCost (cotangents, limits_.needle_cost) + turned};
   if (double_area > 0.0)
     result.unit_normal /= double_area;
   if (spacing_ != nullptr) {
