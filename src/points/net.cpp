@@ -80,7 +80,7 @@ findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   const auto areStacked = [&limits] (std::vector<double> cosines, std::size_t points) {
     const double share = static_cast<double> (cosines.size ()) / static_cast<double> (points);
     return points >= limits.least_points &&
-           (share > limits.share ||
+           ((share > limits.share && median (cosines) > limits.least_cosine) ||
             (share > limits.share_along_normal && median (cosines) > limits.cosine));
   };
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {

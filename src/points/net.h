@@ -20,9 +20,10 @@ struct NetLimits
   double equal = 1e-3; ///< spacings; nearer points are the same but for rounding. Among 100,000
                        ///< random points there is one such pair by chance in every third cloud
   std::size_t least_points = 100; ///< in smaller clouds, shares are chance
-  /// Share of points in a block that others set aside: above it, whatever the direction. A random
-  /// sample has 0.04.
-  double share = 0.1;
+  /// Share of points in a block that others set aside, and the median cosine between normal and
+  /// offset: above both, there are stacks. A random sample has the share 0.04, and offsets in all
+  /// directions the cosine 0.5. Points on lines, with random steps, are near each other in the plane.
+  double share = 0.1, least_cosine = 0.25;
   /// Share above which stacks along the normal are set aside, and the median cosine between normal
   /// and offset that shows them. Random samples with noise reach the share up to noise of 0.1
   /// spacings, and the cosine from 0.3 spacings on.
