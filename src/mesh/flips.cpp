@@ -25,13 +25,13 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   parallelTasks (run, ranges.count (), [&] (std::size_t r) {
     const std::size_t first = ranges.firstPoint (r), points = ranges.lastPoint (r) - first;
     std::vector<Eigen::Vector3f> area (points, Eigen::Vector3f::Zero ());
-    ranges.forEach (r, [&] (Index triangle) {
+    for (const Index triangle : ranges.of (r)) {
       const Triangle& t = mesh.triangles[triangle];
       const Eigen::Vector3f area_vector = areaVectorOf (t, positions).cast<float> ();
       for (const Index p : t)
         if (p - first < points) // also false if p is below
           area[p - first] += area_vector;
-    });
+    }
     for (std::size_t p = 0; p < points; ++p)
       if (!is_remade.empty () && is_remade[first + p] != 0)
         normals[first + p] = area[p].normalized (); // zero stays zero

@@ -14,9 +14,6 @@
 
 namespace pcl::floater {
 namespace {
-// Triangles per task of findComponents (). Large enough that few edges leave them.
-constexpr std::size_t JOINED = 65536;
-
 bool
 isCorner (const Triangle& triangle, Index p)
 {
@@ -300,28 +297,14 @@ boundaryLoops (const TriangleMesh& mesh, const RunContext& run)
 MeshComponents
 findComponents (const TriangleMesh& mesh, const RunContext& run)
 {
-  const std::size_t triangles = mesh.triangles.size ();
-  DisjointSets sets (triangles);
-  // Sets of different ranges are not joined until all ranges are done: edges between them are
-  // stored.
-  std::vector<std::vector<std::pair<Index, Index>>> leaving ((triangles + JOINED - 1) / JOINED);
-  parallelTasks (run, leaving.size (), [&] (std::size_t range) {
-    const std::size_t first = range * JOINED, last = std::min (triangles, first + JOINED);
-    for (std::size_t t = first; t < last; ++t)
-      for (const Index u : mesh.neighbors[t])
-        if (u < t) { // each edge once; NONE is above
-          if (u < first)
-            leaving[range].emplace_back (u, static_cast<Index> (t));
-          else
-            sets.join (u, static_cast<Index> (t));
-        }
-  });
+  DisjointSets sets (mesh.triangles.size ());
   ProgressLoop progress (run);
-  for (const std::vector<std::pair<Index, Index>>& edges : leaving)
-    for (const auto& [u, t] : edges) {
-      progress.next ();
-      sets.join (u, t);
-    }
+  for (Index t = 0; t < mesh.triangles.size (); ++t) {
+    progress.next ();
+    for (const Index u : mesh.neighbors[t])
+      if (u < t) // each edge once; NONE is above
+        sets.join (u, t);
+  }
   MeshComponents components;
   components.of_triangle = std::move (sets).number ([&components] (Index) {
     ++components.count;

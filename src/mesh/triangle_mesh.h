@@ -180,8 +180,7 @@ struct MeshComponents
   Index count = 0;
 };
 
-/// O(n), on all threads. Triangles in random order take mostly one thread, and temporarily up to 24
-/// bytes per triangle.
+/// O(n).
 MeshComponents
 findComponents (const TriangleMesh& mesh, const RunContext& run);
 

@@ -33,7 +33,12 @@ public:
       changed_.pop_back ();
       keepLargestFan (p);
     }
-    compact ();
+    Index kept = 0;
+    for (Index t = 0; t < mesh_.triangles.size (); ++t)
+      if (is_removed_[t] == 0)
+        mesh_.triangles[kept++] = mesh_.triangles[t];
+    mesh_.triangles.resize (kept);
+    mesh_.connect (mesh_.triangle_of.size (), run_);
   }
 
 private:
@@ -65,30 +70,6 @@ private:
     for (std::size_t i = 0; i < fan_.size (); ++i)
       if (i + largest < end || i >= end)
         takeOut (fan_[i]);
-  }
-
-  void compact ()
-  {
-    Index kept = 0;
-    std::vector<Index> place (mesh_.triangles.size (), NONE);
-    for (std::size_t t = 0; t < place.size (); ++t)
-      if (is_removed_[t] == 0)
-        place[t] = kept++;
-    run_.poll ();
-    std::fill (mesh_.triangle_of.begin (), mesh_.triangle_of.end (), NONE);
-    for (std::size_t t = 0; t < place.size (); ++t) {
-      const Index to = place[t];
-      if (to == NONE)
-        continue;
-      mesh_.triangles[to] = mesh_.triangles[t];
-      for (std::size_t side = 0; side < 3; ++side) {
-        const Index across = mesh_.neighbors[t][side];
-        mesh_.neighbors[to][side] = across == NONE ? NONE : place[across];
-        mesh_.triangle_of[mesh_.triangles[to][side]] = to;
-      }
-    }
-    mesh_.triangles.resize (kept);
-    mesh_.neighbors.resize (kept);
   }
 
   TriangleMesh& mesh_;

@@ -8,7 +8,7 @@
 #include "core/types.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -44,11 +44,11 @@ public:
   /// range fits into a second-level cache, and few edges leave it.
   static constexpr std::size_t LENGTH = 8192;
 
-  /// Leaves out triangles that are not proper. O(triangles), on all threads.
+  /// Leaves out triangles that are not proper. O(triangles).
   TriangleRanges (const std::vector<Triangle>& triangles, std::size_t points,
                   const RunContext& run);
 
-  std::size_t count () const { return begins_.size () - 1; }
+  std::size_t count () const { return lists_.rows (); }
   std::size_t points () const { return points_; }
   std::size_t firstPoint (std::size_t r) const { return r * LENGTH; }
   std::size_t lastPoint (std::size_t r) const { return std::min (points_, (r + 1) * LENGTH); }
@@ -56,18 +56,12 @@ public:
   /// Number of triangles that are in no range.
   std::size_t leftOut () const { return left_out_; }
 
-  /// Calls body (t) for each triangle of a range, ascending.
-  template <typename Body>
-  void forEach (std::size_t r, Body&& body) const
-  {
-    for (std::size_t i = begins_[r]; i < begins_[r + 1]; ++i)
-      body (ids_[i]);
-  }
+  /// The triangles of a range, ascending.
+  Row of (std::size_t r) const { return lists_.row (r); }
 
 private:
   std::size_t points_, left_out_ = 0;
-  std::vector<std::size_t> begins_; // begins in ids_, and the end of the last one
-  std::vector<Index> ids_;
+  CsrLists lists_;
 };
 
 /// A triangle as seen from one of its corners.
@@ -123,11 +117,8 @@ public:
   bool isOneFan () const;
 
 private:
-  bool indexLeaving (const VertexStar& star);
-  Index wedgeTo (Index q, const VertexStar& star) const;
-
-  std::vector<Index> after_, before_;        // of each wedge: neighbours in the fan, or NONE
-  std::unordered_map<Index, Index> leaving_; // if there are many wedges: each by its first edge
+  std::vector<Index> after_, before_;            // of each wedge: neighbours in the fan, or NONE
+  std::vector<std::pair<Index, Index>> leaving_; // ends of the first edges, ascending; wedges
 };
 
 } // namespace pcl::floater
