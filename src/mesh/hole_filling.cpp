@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -14,9 +13,6 @@
 namespace pcl::floater {
 namespace {
 using Edge = std::pair<Index, Index>;
-
-// Cosine between normals of triangles that lie on one another: 150 degrees.
-constexpr double TURNED = -0.87;
 
 Edge
 edgeOf (Index p, Index q)
@@ -57,8 +53,6 @@ public:
     if (rest.empty ())
       return false;
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
-    if (loop.points.size () >= limits_.least_lid && liesOnMesh (triangles, loop))
-      return false;
     for (const Triangle& t : triangles)
       for (std::size_t i = 0; i < 3; ++i)
         new_edges_.insert (edgeOf (t[i], t[(i + 1) % 3]));
@@ -69,29 +63,6 @@ public:
   const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
-  // Whether a filling turns back onto the triangles beside the loop.
-  bool liesOnMesh (const std::vector<Triangle>& filling, const BoundaryLoop& loop) const
-  {
-    const auto normal_of = [this] (const Triangle& t) {
-      return Eigen::Vector3d (areaVectorOf (t, positions_).normalized ());
-    };
-    std::map<Edge, Eigen::Vector3d> beside; // normals, by the edges of the filling
-    std::vector<Index> fan;
-    for (std::size_t i = 0, m = loop.points.size (); i < m; ++i) {
-      mesh_.fan (loop.points[i], fan);
-      beside[{loop.points[i + 1 < m ? i + 1 : 0], loop.points[i]}] =
-          normal_of (mesh_.triangles[fan.front ()]);
-    }
-    double turned = 0.0;
-    for (const Triangle& t : filling)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto found = beside.find ({t[i], t[(i + 1) % 3]});
-        if (found != beside.end () && found->second.dot (normal_of (t)) < TURNED)
-          turned += (positions_[t[i]] - positions_[t[(i + 1) % 3]]).norm ();
-      }
-    return turned > limits_.lid_share * loop.length;
-  }
-
   double fillCost (Index p, Index q, Index r) const
   {
     const double double_area = areaVector (positions_[p], positions_[q], positions_[r]).norm ();

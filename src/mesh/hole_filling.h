@@ -88,19 +88,13 @@ struct HoleFillingLimits
                             ///< own. Chosen by hand; no measurement is recorded
   std::size_t largest_polygon = 128; ///< corners up to which the best triangulation is searched, to
                                      ///< limit the time, which grows with the third power
-  /// A filling that turns back (by more than 150 degrees) onto the triangles beside the loop along
-  /// this share of its length is a lid on a flat component, and the loop is its border. Right
-  /// fillings of 240 generated bodies have at most 0.17, but in loops of few points, where flips mend
-  /// it.
-  double lid_share = 0.25;
-  std::size_t least_lid = 32; ///< points of such a loop
 };
 
 /// Fills every loop that is not kept open by triangles of least total cost between its points (see
 /// PolygonFilling). A loop longer than HoleFillingLimits::largest_polygon is first shortened by
 /// repeatedly cutting off the ear of least cost. Edges of the mesh are not used twice. A loop is kept
-/// open if this would be needed, if it goes round a single triangle, and if its filling would lie on
-/// the mesh. O(m^3) for a loop of m points up to that limit, O(m log m) beyond.
+/// open if this would be needed, or if it goes round a single triangle. O(m^3) for a loop of m points
+/// up to that limit, O(m log m) beyond.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
 /// \return number of loops filled
 /// \throws std::logic_error if the loops do not belong to the mesh
