@@ -212,6 +212,26 @@ scanLines (double apart, double noise, std::uint64_t seed)
   return made;
 }
 
+/// A sheet with waves of a height, or 0: flat. Its rows are `apart` steps apart, and the points in a
+/// row are strewn: steps are random, with a mean of one, so that some points nearly coincide.
+inline KnownSurface
+strewnLines (double apart, double height, std::uint64_t seed)
+{
+  constexpr int ROWS = 20;
+  constexpr double LENGTH = 200.0;
+  RandomStream random (seed);
+  KnownSurface made;
+  made.loops = 1;
+  made.is_even = false;
+  for (int row = 0; row < ROWS; ++row)
+    for (double x = -std::log1p (-random.uniform ()); x < LENGTH;
+         x -= std::log1p (-random.uniform ())) {
+      const double y = row * apart;
+      made.points.emplace_back (x, y, height * std::sin (x / 30.0) * std::cos (y / 35.0));
+    }
+  return made;
+}
+
 /// Two jittered grids side by side, their steps 1 and `ratio`.
 inline KnownSurface
 densityStep (int ratio, std::uint64_t seed)

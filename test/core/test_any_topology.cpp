@@ -342,6 +342,10 @@ cases ()
       for (const double noise : {0.0, 0.01})
         add ("lines_" + std::to_string (apart) + (noise > 0.0 ? "_noisy" : "") + of_seed,
              [=] { return scanLines (apart, noise, seed); });
+    for (const int apart : {3, 8, 20, 40})
+      for (const double height : {0.0, 20.0})
+        add ("strewn_lines_" + std::to_string (apart) + (height > 0.0 ? "_wavy" : "") + of_seed,
+             [=] { return strewnLines (apart, height, seed); });
   }
   return all;
 }
