@@ -324,9 +324,8 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   added_.clear ();
-  const double farthest =
-      farthestFrom (positions_, p, planes_.neighbors.first (p, nearest),
-                    static_cast<double> (planes_.spacing[p]), limits_);
+  const double farthest = farthestFrom (positions_, p, planes_.neighbors.first (p, nearest),
+                                        static_cast<double> (planes_.spacing[p]), limits_);
   const double sqr_searched =
       nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();
   const Centre centre{p, frame, row, sqr_searched, farthest};
