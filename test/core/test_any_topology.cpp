@@ -170,6 +170,13 @@ TEST (OneSided, IsNeverPassedOffAsRight)
   }
 }
 
+// They did where points that nearly coincide along a line counted as stacks.
+TEST (StrewnLines, DoNotCross)
+{
+  const Result result = reconstruct (asInput (strewnLines (3, 20.0, 1).points), {});
+  EXPECT_EQ (result.report.check.self_intersections, 0U);
+}
+
 // Each point again, up to `offset` away: the same surface, of stacks.
 KnownSurface
 stacked (KnownSurface surface, std::size_t copies, double offset, std::uint64_t seed)
