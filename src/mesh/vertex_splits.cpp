@@ -3,38 +3,56 @@
 #include "mesh/vertex_splits.h"
 
 #include "core/geometry.h"
-#include "mesh/fan_cutter.h"
 #include "points/kd_tree.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl::floater {
 namespace {
+// The triangles around a vertex and the places between them, anti-clockwise. Triangle k has the
+// places k and k + 1 as its other corners. Around a closed fan, places count on.
+struct Fan
+{
+  std::vector<Index> triangles;
+  std::vector<Index> ring;
+  bool is_closed = false;
+
+  std::size_t size () const { return triangles.size (); }
+  Index triangle (std::size_t k) const { return triangles[k % size ()]; }
+  Index at (std::size_t k) const { return ring[k % ring.size ()]; }
+};
+
+// A part of the fan around a vertex, from one place to another.
+struct Cut
+{
+  double cost = std::numeric_limits<double>::infinity ();
+  Index vertex = NONE;
+  std::size_t from = 0, to = 0;
+  // Whether a triangle with both points closes the cut there; at the boundary, one is enough.
+  bool has_begin = true, has_end = true;
+};
+
 class VertexSplitter
 {
 public:
   VertexSplitter (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                   const SplitLimits& limits, const RunContext& run)
-      : mesh_ (mesh), cutter_ (mesh), positions_ (positions), limits_ (limits),
-        tree_ (positions, run)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), tree_ (positions, run)
   {
     mesh_.triangle_of.resize (positions.size (), NONE);
   }
 
   bool add (Index p)
   {
-    const Cut cut = bestNear (p, limits_.near);
+    const Cut cut = bestNear (p);
     if (cut.vertex != NONE)
-      cutter_.split (cut, p);
+      split (cut, p);
     return cut.vertex != NONE;
   }
-
-  bool isAtFold (Index p);
-  bool move (Index p);
-  void dropUnused (const RunContext& run) { cutter_.dropUnused (run); }
 
 private:
   Eigen::Vector3d normalOf (Index t) const
@@ -42,11 +60,13 @@ private:
     return t == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
                      : areaVectorOf (mesh_.triangles[t], positions_).normalized ();
   }
-  Cut bestCut (Index v, Index p, const Return* given = nullptr);
-  Cut bestNear (Index p, std::size_t near);
+  void setFan (Index v) { fan_.is_closed = mesh_.fan (v, fan_.triangles, fan_.ring); }
+  Cut bestCut (Index v, Index p);
+  Cut bestNear (Index p);
+  Index newTriangle ();
+  void split (const Cut& cut, Index p);
 
   TriangleMesh& mesh_;
-  FanCutter cutter_;
   const std::vector<Eigen::Vector3d>& positions_;
   const SplitLimits& limits_;
   KdTree tree_;
@@ -67,9 +87,9 @@ private:
 };
 
 Cut
-VertexSplitter::bestCut (Index v, Index p, const Return* given)
+VertexSplitter::bestCut (Index v, Index p)
 {
-  cutter_.setFan (v, fan_);
+  setFan (v);
   const std::size_t m = fan_.size (), ring = fan_.ring.size (),
                     count = fan_.is_closed ? 2 * m : ring;
   const bool is_open = !fan_.is_closed;
@@ -154,16 +174,11 @@ VertexSplitter::bestCut (Index v, Index p, const Return* given)
       cost += limits_.boundary * (longest + (has_begin && from < m ? places_[m].length_p
                                              : has_end && to > 0   ? places_[0].length_p
                                                                    : 0.0));
-    else if (cost < best.cost || given != nullptr)
+    else if (cost < best.cost)
       cost += bend (first.needle, -last.needle, gap);
     if (cost < best.cost)
       best = {cost, v, from, to, has_begin, has_end};
   };
-  if (given != nullptr) {
-    const Cut cut = FanCutter::cutAt (fan_, *given);
-    consider (cut.from, cut.to, cut.has_begin, cut.has_end);
-    return best;
-  }
   // Of a huge fan only narrow parts, which take no quadratic time.
   const std::size_t widest = limits_.most_cuts / m + 1;
   for (std::size_t from = 0; from < (is_open ? ring : m); ++from)
@@ -178,10 +193,10 @@ VertexSplitter::bestCut (Index v, Index p, const Return* given)
 }
 
 Cut
-VertexSplitter::bestNear (Index p, std::size_t near)
+VertexSplitter::bestNear (Index p)
 {
   tree_.nearestIf (
-      positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, near,
+      positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits_.near,
       [this] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
         return mesh_.triangle_of[neighbor.point] != NONE;
       },
@@ -196,50 +211,53 @@ VertexSplitter::bestNear (Index p, std::size_t near)
   return best;
 }
 
-bool
-VertexSplitter::isAtFold (Index p)
+Index
+VertexSplitter::newTriangle ()
 {
-  if (mesh_.triangle_of[p] == NONE)
-    return false;
-  cutter_.setFan (p, fan_);
-  for (std::size_t k = 0; k < fan_.size (); ++k) {
-    const Index t = fan_.triangles[k];
-    const Eigen::Vector3d here = normalOf (t);
-    const std::uint8_t side = mesh_.sideOf (t, p);
-    if (here.dot (normalOf (mesh_.neighbors[t][side])) < -0.5 ||
-        here.dot (normalOf (mesh_.neighbors[t][TriangleMesh::next (side)])) < -0.5)
-      return true;
-  }
-  return false;
+  mesh_.triangles.emplace_back ();
+  mesh_.neighbors.push_back ({NONE, NONE, NONE});
+  return static_cast<Index> (mesh_.triangles.size () - 1);
 }
 
-// Takes a point out and puts it back where that costs least.
-// \return false if that is where it is
-bool
-VertexSplitter::move (Index p)
+// Gives p, which has no triangle, the part of a fan, and closes the cuts by triangles with both
+// points.
+void
+VertexSplitter::split (const Cut& cut, Index p)
 {
-  cutter_.setFan (p, fan_);
-  const std::vector<Index> around = fan_.ring;
-  double best = -1e-9 * (positions_[p] - positions_[around.front ()]).norm ();
-  Index into = NONE;
-  for (const Index v : around) {
-    const Return back = cutter_.takeOut (p, v);
-    if (back.vertex == NONE)
-      continue;
-    const double as_it_was =
-        bestCut (v, p, &back).cost + limits_.far * (positions_[p] - positions_[v]).norm ();
-    const double gain = bestNear (p, limits_.near_folds).cost - as_it_was;
-    if (gain < best) {
-      best = gain;
-      into = v;
-    }
-    cutter_.putBack (back, p);
+  const Index v = cut.vertex;
+  setFan (v);
+  const std::size_t m = fan_.size (), from = cut.from, to = cut.to;
+  // Triangles beside the ends of the part, outside and inside; NONE at the boundary.
+  const auto outside = [&] (std::size_t k) { return fan_.triangle (k); };
+  const Index before = from > 0 || fan_.is_closed ? outside (from + m - 1) : NONE;
+  const Index after = to < m || fan_.is_closed ? outside (to) : NONE;
+  const Index first = to > from ? outside (from) : NONE;
+  const Index last = to > from ? outside (to + m - 1) : NONE;
+  const Index from_point = fan_.at (from), to_point = fan_.at (to);
+  for (std::size_t k = from; k < to; ++k) {
+    Triangle& corners = mesh_.triangles[fan_.triangle (k)];
+    corners[mesh_.sideOf (fan_.triangle (k), v)] = p;
   }
-  if (into == NONE)
-    return false;
-  cutter_.takeOut (p, into);
-  cutter_.split (bestNear (p, limits_.near_folds), p);
-  return true;
+  const Index begin = cut.has_begin ? newTriangle () : NONE;
+  const Index end = cut.has_end ? newTriangle () : NONE;
+  if (begin != NONE) {
+    mesh_.triangles[begin] = {v, from_point, p};
+    mesh_.neighbors[begin] = {first, end, before};
+    // The edge of `before` that follows its first corner on the ring.
+    if (before != NONE)
+      mesh_.neighbors[before][TriangleMesh::next (mesh_.sideOf (before, v))] = begin;
+    if (first != NONE)
+      mesh_.neighbors[first][TriangleMesh::previous (mesh_.sideOf (first, p))] = begin;
+  }
+  if (end != NONE) {
+    mesh_.triangles[end] = {v, p, to_point};
+    mesh_.neighbors[end] = {last, after, begin};
+    if (last != NONE)
+      mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, p))] = end;
+    if (after != NONE)
+      mesh_.neighbors[after][TriangleMesh::previous (mesh_.sideOf (after, v))] = end;
+  }
+  mesh_.triangle_of[v] = mesh_.triangle_of[p] = begin != NONE ? begin : end;
 }
 
 } // namespace
@@ -255,16 +273,6 @@ splitVertices (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions
     points += splitter.add (p) ? 1 : 0;
     progress.next ();
   }
-  bool has_moved = true;
-  for (std::size_t pass = 0; has_moved && pass < limits.passes; ++pass) {
-    has_moved = false;
-    for (const Index p : added)
-      if (splitter.isAtFold (p)) {
-        has_moved = splitter.move (p) || has_moved;
-        progress.next ();
-      }
-  }
-  splitter.dropUnused (run);
   return points;
 }
 

@@ -14,8 +14,9 @@ namespace pcl::floater {
 /// chosen by hand; without one of them, crossing triangles or folds became many times as many.
 struct SplitLimits
 {
-  std::size_t near = 3;         ///< nearest vertices of a point, whose fans may be split
-  std::size_t near_folds = 6;   ///< the same where it is at a fold
+  std::size_t near =
+      4; ///< nearest vertices of a point, whose fans may be split. With 3 and 6, folds
+         ///< were a tenth more and fewer, crossing pairs the other way round
   std::size_t most_cuts = 4096; ///< tried of a fan, about
   double fold = 30.0;           ///< of a fold, or a triangle without area, in longest edges of
                                 ///< the fan
@@ -24,15 +25,13 @@ struct SplitLimits
                                 ///< One between two points of a stack counts as the longest edge
                                 ///< of the fan: else the boundary passes through both
   double far = 10.0;            ///< per length from the point to the vertex that is split
-  std::size_t passes = 3;       ///< over the points at folds; ten leave about as many folds
 };
 
 /// Adds points to a mesh: each, in the given order, by the cheapest split of one of the nearest
 /// vertices. A split cuts the fan of a vertex along two edges, or one at the boundary, gives the new
 /// point a part of it, and closes the cuts by triangles with both points (the inverse of an edge
-/// collapse: Hoppe 1996). So neither manifold nor topology nor orientation can change. Where folds
-/// are left, a point is taken out by a collapse into one of its neighbours, and split off anew where
-/// that costs least. One thread, O(log n) for each point.
+/// collapse: Hoppe 1996). So neither manifold nor topology nor orientation can change. One
+/// thread, O(log n) for each point.
 /// \param added points without triangles
 /// \return number of points added
 std::size_t
