@@ -276,15 +276,13 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
   const LocalPlanes planes = findPlanes (points, {request.options.neighbors}, request);
-  const auto find = [&] (const std::vector<AreaSample>& samples, SearchReason reason) {
-    return findViewpoint (points, planes.neighbors, samples, reason, search, evidence, run);
-  };
-  const std::optional<Viewpoint> found =
-      find (takeAreaSamples (points, planes, starSettings (request), search.samples, run),
-            SearchReason::UNEVEN);
-  return found ? found
-               : find (takePatchSamples (points.positions, planes.neighbors, search.samples),
-                       SearchReason::NOISE);
+  const std::vector<AreaSample> samples =
+      takePatchSamples (points.positions, planes.neighbors, search.samples);
+  for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
+    if (const std::optional<Viewpoint> found =
+            findViewpoint (points, planes.neighbors, samples, reason, search, evidence, run))
+      return found;
+  return {};
 }
 
 // Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on

@@ -77,18 +77,18 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                                              run, limits.planes);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
-  const auto reconstructFrom = [&] (const std::optional<Viewpoint>& viewpoint) {
+  const auto reconstructFrom = [&] (const CsrLists& neighbors_there, SearchReason reason) {
+    const std::optional<Viewpoint> viewpoint =
+        findViewpoint (points, neighbors_there, samples, reason, search, limits.view.evidence, run);
     return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
   };
   std::optional<Stars> begun;
   if (known != nullptr)
     begun = known->begunStars ();
   if (may_be_seen) {
-    samples =
-        takeAreaSamples (points, planes, stars, search.samples, run, begun ? &*begun : nullptr);
+    samples = takePatchSamples (points.positions, planes.neighbors, search.samples);
     if (const std::optional<Problem> problem =
-            reconstructFrom (findViewpoint (points, planes.neighbors, samples, SearchReason::UNEVEN,
-                                            search, limits.view.evidence, run)))
+            reconstructFrom (planes.neighbors, SearchReason::UNEVEN))
       return *problem;
   }
   const bool is_measured = options.denoise || dropsScatter (options);
@@ -110,13 +110,9 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   // Errors along the rays of a scan look like noise and scatter; of what is open, the sensor tells
   // the front.
   const bool looks_noisy = noise.is_strong || !scatter.empty ();
-  if (may_be_seen && looks_noisy)
-    samples = takePatchSamples (points.positions, geometry.neighbors, search.samples);
   if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
     if (const std::optional<Problem> problem =
-            reconstructFrom (findViewpoint (points, geometry.neighbors, samples,
-                                            looks_noisy ? SearchReason::NOISE : SearchReason::OPEN,
-                                            search, limits.view.evidence, run)))
+            reconstructFrom (geometry.neighbors, SearchReason::OPEN))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {
     geometry = {};

@@ -10,36 +10,6 @@
 #include <cmath>
 
 namespace pcl::floater {
-std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-                 std::size_t count, const RunContext& run, const Stars* known)
-{
-  // Half of them are spare: points with open stars have no area.
-  const std::vector<Eigen::Vector3d>& positions = points.positions;
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / (2 * count));
-  std::vector<Index> centres;
-  for (std::size_t p = step / 2; p < positions.size () && centres.size () < 2 * count; p += step)
-    centres.push_back (static_cast<Index> (p));
-  const Stars made =
-      known ? Stars{} : makeStars (positions, planes, Rows::of (centres), settings, run);
-  const Stars& stars = known ? *known : made;
-  std::vector<AreaSample> samples;
-  for (const Index p : centres) {
-    if (stars.open[p] != 0)
-      continue;
-    const Eigen::Vector3d& centre = positions[p];
-    const Row star = stars.neighbors.row (p);
-    double area = 0.0;
-    for (std::size_t i = 0; i < star.size (); ++i)
-      area += (positions[star[i]] - centre)
-                  .cross (positions[star[(i + 1) % star.size ()]] - centre)
-                  .norm ();
-    if (area > 0.0)
-      samples.push_back ({centre, stars.normals[p].cast<double> (), area});
-  }
-  return samples;
-}
-
 std::vector<RayPatch>
 findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                   std::size_t count, std::size_t size)

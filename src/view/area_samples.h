@@ -21,18 +21,10 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
 struct AreaSample
 {
   Eigen::Vector3d position, normal;
-  double area; ///< of its star, or of the patch around it; in any unit
+  double area; ///< of the patch around it, in any unit
 };
 
-/// Area samples at at most `2 * count` points, spread evenly over their order, except those with an
-/// open star. O(count).
-/// \param settings of the stars
-/// \param known    stars of all points, if they are known (see makeStars)
-std::vector<AreaSample>
-takeAreaSamples (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-                 std::size_t count, const RunContext& run, const Stars* known = nullptr);
-
-/// Area samples of patches of points, for noise that spoils the stars of single points. O(count).
+/// Area samples of patches of points: noise and rows spoil the stars of single points. O(count).
 /// \param neighbors nearest first
 std::vector<AreaSample>
 takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,

@@ -3,6 +3,7 @@
 #include "view/viewpoint_search.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "view/pattern_search.h"
 
@@ -126,8 +127,11 @@ public:
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
       if (!takeBetter (refine (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
-          may_be_far_)
+          may_be_far_) {
         takeBetter (refine (mirrored (candidate.viewpoint)), found);
+        if (!found)
+          takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
+      }
       if (found && isDetermined (found->viewpoint))
         return found->viewpoint;
     }
@@ -138,7 +142,8 @@ private:
   static constexpr double APART = 0.1;       // of two directions whose descents may differ
   static constexpr double EVEN = 0.02;       // spread of rays that ends the search
   static constexpr double NEARER = 0.9;      // of the spread of areas from far away
-  static constexpr double FARTHER = 0.5;     // of the spread of rays from far away
+  static constexpr double FARTHER = 0.75;    // of the spread of rays from far away
+  static constexpr double CLOSER = 0.16;     // the step after two rounds
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
   // A viewpoint with enough evidence.
@@ -158,10 +163,12 @@ private:
     return found && found->cost < EVEN;
   }
 
-  // Whether an evenly sampled cloud is seen from this place, and not from any far one on this side,
-  // such as a raster of heights.
+  // Whether the cloud is seen from this place: it is no closed body around it, and if it is evenly
+  // sampled, it is not as even from far away on this side, such as a raster of heights.
   bool isDetermined (const Viewpoint& found) const
   {
+    if (!found.is_far && looksToAllSides (positions_, found, evidence_))
+      return false;
     return may_be_far_ || (!found.is_far && evidenceAt (found).ray_spread <
                                                 FARTHER * evidenceAt (farFrom (found)).ray_spread);
   }
@@ -225,7 +232,39 @@ private:
     return {viewpoint.place - 2.0 * height * plane.normal, false};
   }
 
-  // A grid of viewpoints, and far ones, rated by a few areas.
+  // Half of the samples, along each axis.
+  Eigen::AlignedBox3d middleBox () const
+  {
+    Eigen::AlignedBox3d box;
+    box.setEmpty ();
+    std::vector<double> values (samples_.size ());
+    for (const double share : {0.25, 0.75}) {
+      Eigen::Vector3d corner;
+      for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < samples_.size (); ++i)
+          values[i] = samples_[i].position[axis];
+        corner[axis] = quantile (values, share);
+      }
+      box.extend (corner);
+    }
+    return box;
+  }
+
+  // The middles of the cells of a grid over twice a box.
+  static void addGrid (const Eigen::AlignedBox3d& box, std::size_t n,
+                       std::vector<RatedViewpoint>& places)
+  {
+    const auto cells = static_cast<double> (n);
+    for (std::size_t i = 0; i < n * n * n; ++i) {
+      const std::size_t column = i / n % n, layer = i / (n * n);
+      const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
+                                 static_cast<double> (layer));
+      const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
+      places.push_back ({0.0, {box.center () + offset.cwiseProduct (box.sizes ()), false}});
+    }
+  }
+
+  // Viewpoints on grids, and far ones, rated by a few areas.
   std::vector<RatedViewpoint> startingPlaces () const
   {
     std::vector<RatedViewpoint> candidates;
@@ -233,15 +272,8 @@ private:
       candidates.push_back ({0.0, viewpoint});
     };
     const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
-    const std::size_t n = may_be_far_ ? limits_.cells : limits_.cells / 2;
-    const auto cells = static_cast<double> (n);
-    for (std::size_t i = 0; i < n * n * n; ++i) {
-      const std::size_t column = i / n % n, layer = i / (n * n);
-      const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
-                                 static_cast<double> (layer));
-      const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
-      add ({centre + offset.cwiseProduct (size), false});
-    }
+    addGrid (box_, limits_.cells, candidates);
+    addGrid (middleBox (), limits_.cells, candidates);
     // On spheres around the box, the last of infinite radius.
     for (std::size_t i = 0; i < limits_.directions; ++i) {
       const Eigen::Vector3d direction = spiralDirection (i, limits_.directions);
@@ -271,8 +303,7 @@ private:
   // where single rays do not. In a narrow valley, the search ends early: it begins again from there.
   std::optional<Found> refine (const Viewpoint& start, double step = AREA_ERROR) const
   {
-    constexpr double CLOSER = 0.16, // the step after two rounds
-        CLEARLY = 0.9;              // by hand
+    constexpr double CLEARLY = 0.9; // by hand
     std::optional<Found> best;
     takeBetter (refineBy (start, step, true), best);
     if (!best || !best->is_even)
@@ -351,18 +382,16 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   if (filled.patches < FEWEST_PATCHES)
     return {};
   const bool for_uneven = reason == SearchReason::UNEVEN;
-  const ViewpointSearch search (points, neighbors, samples, limits, filled,
-                                reason != SearchReason::OPEN, run);
+  const ViewpointSearch search (points, neighbors, samples, limits, filled, for_uneven, run);
   if (for_uneven) {
     const RowEvidence rows = findRows (points, neighbors, limits.samples);
     if (rows.share > limits.rows && !rows.are_straight)
       if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
         return found;
   }
-  // Noise needs all patches, else a quarter of them does.
-  const std::size_t least_share = reason == SearchReason::NOISE ? 1 : 4;
-  if (least_share * filled.patches < evidence.patches || !search.hasSamples () ||
-      (reason != SearchReason::NOISE && (spreadOfAreas (samples) > limits.even) != for_uneven))
+  constexpr std::size_t LEAST_SHARE = 4; // a quarter of the patches
+  if (LEAST_SHARE * filled.patches < evidence.patches || !search.hasSamples () ||
+      (for_uneven && spreadOfAreas (samples) <= limits.even))
     return {};
   return search.find ();
 }

@@ -21,9 +21,8 @@ struct EvidenceExcess
 /// Size of the search, and its thresholds.
 struct SearchLimits
 {
-  double even = 1.0; ///< spread of the areas around points (logarithm of the ratio of the
-                     ///< quartiles); below, and without noise, the cloud is sampled evenly, and
-                     ///< needs no view. Random points have 0.5
+  double even = 0.35; ///< spread of the areas of patches (logarithm of the ratio of the quartiles);
+                      ///< below, the cloud is sampled evenly. Random points have 0.2
   double rows = 0.6; ///< share of points between their two nearest neighbours; above, the cloud was
                      ///< scanned along lines. Random points have 0.25, a square raster 0.33
   std::size_t row_directions = 180; ///< tested for such a cloud: one degree apart
@@ -37,11 +36,13 @@ struct SearchLimits
                                          ///< and more
   double as_good = 0.75; ///< share of what the best viewpoint explains; those that explain more are
                          ///< compared by their rays: on a plane, many explain as much
-  std::size_t samples = 500;    ///< sampled areas; the error of the spread of so many is 6 %
-  std::size_t cells = 24;       ///< along each axis of a grid of viewpoints over twice the bounding
-                                ///< box
-  std::size_t directions = 100; ///< of farther viewpoints: 20 degrees apart
-  std::size_t starts = 24;      ///< best viewpoints by areas, from which descents start
+  std::size_t samples = 500; ///< sampled areas; the error of the spread of so many is 6 %
+  std::size_t cells =
+      12; ///< along each axis of a grid of viewpoints over twice the bounding box, and
+          ///< of one over twice the box of half of the samples: points are dense
+          ///< around a sensor low above wide ground
+  std::size_t directions = 100;       ///< of farther viewpoints: 20 degrees apart
+  std::size_t starts = 24;            ///< best viewpoints by areas, from which descents start
   std::size_t area_evaluations = 200; ///< in each descent by areas
   std::size_t by_rays = 3;         ///< best of these by rays, which are refined until one is right
   std::size_t rounds = 7;          ///< of a refinement, each with new patches. With 9, as many of
@@ -61,16 +62,15 @@ struct SearchLimits
 /// Why a viewpoint is searched.
 enum class SearchReason
 {
-  UNEVEN, ///< areas around points differ, or points lie in rows; nothing is searched if neither is so
-  NOISE, ///< errors along the rays may look like noise or scatter
-  OPEN ///< the front of an evenly sampled cloud. Nothing is searched if it is not even; nor are far
-       ///< places: rasters of heights are even from there
+  UNEVEN, ///< areas of patches differ, or points lie in rows; nothing is searched if neither is so
+  OPEN    ///< the front of what is open, or errors along the rays look like noise or scatter. Far
+          ///< places are not searched: rasters of heights are even from there
 };
 
 /// Finds the viewpoint of a cloud in two steps.
 ///
 /// Areas: a sensor spaces its rays evenly, so the area around a point grows with the square of the
-/// distance, and with the slope to the ray. Area of the star, times the cosine, over the squared
+/// distance, and with the slope to the ray. Area of a patch, times the cosine, over the squared
 /// distance, is the solid angle of a ray. The viewpoint where these are most alike is searched on a
 /// grid, also far away, and refined.
 ///
@@ -79,7 +79,7 @@ enum class SearchReason
 /// of the points (see explainsDensity). Clouds that fill few patches (EvidenceLimits) have no
 /// evidence.
 /// \param neighbors nearest first
-/// \param samples   SearchLimits::samples of the points, see takeAreaSamples, takePatchSamples
+/// \param samples   SearchLimits::samples of the points, see takePatchSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const CsrLists& neighbors,
