@@ -8,7 +8,6 @@
 #include <charconv>
 #include <deque>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -16,9 +15,9 @@
 
 namespace pcl::floater {
 /// A file cannot be written. The message names the file and the cause.
-struct WriteError : std::runtime_error
+struct WriteError : ToolError
 {
-  using std::runtime_error::runtime_error;
+  explicit WriteError (const std::string& message) : ToolError (EXIT_OUTPUT, message) {}
 };
 
 /// Checks, without changing anything, that a file could be created or replaced.

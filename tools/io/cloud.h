@@ -16,7 +16,6 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -24,12 +23,6 @@
 #include <vector>
 
 namespace pcl::floater {
-/// A file cannot be used as input. The message names the cause, not the file.
-struct ReadError : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
-
 enum class ScalarType
 {
   INT8,

@@ -9,9 +9,41 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace pcl::floater {
+/// Exit codes, as documented in --help.
+enum ExitCode
+{
+  EXIT_OK = 0,
+  EXIT_USAGE = 1,
+  EXIT_INPUT = 2,
+  EXIT_RECONSTRUCTION = 3,
+  EXIT_OUTPUT = 4,
+  EXIT_INTERNAL = 5,
+  EXIT_WARNINGS = 6,
+  EXIT_WORK = 7 ///< a file of the work folder of pcl_floater_distributed cannot be used
+};
+
+/// A failure, and the exit code for it.
+struct ToolError : std::runtime_error
+{
+  ToolError (int exit_code, const std::string& message)
+      : std::runtime_error (message), code (exit_code)
+  {
+  }
+
+  int code;
+};
+
+/// A file cannot be used as input. The message names the cause, not the file.
+struct ReadError : ToolError
+{
+  explicit ReadError (const std::string& message) : ToolError (EXIT_INPUT, message) {}
+};
+
 enum class ByteOrder
 {
   LITTLE,

@@ -36,14 +36,11 @@ runSmallTool (CLI::App& app, int argc, char** argv, const Work& work)
   catch (const std::invalid_argument& error) {
     return fail (1, error.what ());
   }
-  catch (const ReadError& error) {
-    return fail (2, error.what ());
+  catch (const ToolError& error) {
+    return fail (error.code, error.what ());
   }
   catch (const std::bad_alloc&) {
     return fail (3, "there is not enough memory");
-  }
-  catch (const WriteError& error) {
-    return fail (4, error.what ());
   }
 }
 

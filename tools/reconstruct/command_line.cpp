@@ -184,8 +184,7 @@ unknownExtension (const std::filesystem::path& path)
 } // namespace
 
 int
-guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
-         std::string* to)
+guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work)
 {
   int code = EXIT_INTERNAL;
   std::string message;
@@ -196,14 +195,6 @@ guarded (const char* program, const char* if_no_memory, const std::function<int 
     code = error.code;
     message = std::string (error.what ()) + (code == EXIT_USAGE ? "\nTry --help." : "");
   }
-  catch (const ReadError& error) {
-    code = EXIT_INPUT;
-    message = error.what ();
-  }
-  catch (const WriteError& error) {
-    code = EXIT_OUTPUT;
-    message = error.what ();
-  }
   catch (const std::bad_alloc&) {
     message = scratchFailure ();
     if (message.empty ())
@@ -212,10 +203,7 @@ guarded (const char* program, const char* if_no_memory, const std::function<int 
   catch (const std::exception& error) {
     message = std::string ("unexpected error: ") + error.what ();
   }
-  if (to != nullptr)
-    *to = message;
-  else
-    std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
+  std::fprintf (stderr, "%s: %s\n", program, printable (message).c_str ());
   return code;
 }
 
@@ -334,17 +322,14 @@ checkPaths (const CommandLine& line)
     if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
       throw UsageError ("the name of the file of materials or of the texture has a line break in "
                         "it, which files in OBJ cannot hold; choose another one");
-  const auto refuse = [] (const std::string& one, const std::string& other, const auto& path) {
-    throw UsageError (one + " and " + other + " are the same file, '" + path.string () +
-                      "'; give different ones");
-  };
   for (std::size_t i = 2; i < all.size (); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const auto& [name, path] = all[i];
       const auto& [other_name, other] = all[j];
       if (!path.empty () && !other.empty () && !isStandardStream (path) &&
           !isStandardStream (other) && areSame (path, other))
-        refuse (other_name, name, path);
+        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
+                          "'; give different ones");
     }
   if (!line.meshFormat () && isStandardStream (line.output))
     throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "

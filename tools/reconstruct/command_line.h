@@ -12,47 +12,20 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl::floater {
-/// Exit codes, as documented in --help.
-enum ExitCode
-{
-  EXIT_OK = 0,
-  EXIT_USAGE = 1,
-  EXIT_INPUT = 2,
-  EXIT_RECONSTRUCTION = 3,
-  EXIT_OUTPUT = 4,
-  EXIT_INTERNAL = 5,
-  EXIT_WARNINGS = 6,
-  EXIT_WORK = 7 ///< a file of the work folder of pcl_floater_distributed cannot be used
-};
-
-/// A failure, and the exit code for it.
-struct ToolError : std::runtime_error
-{
-  ToolError (int exit_code, const std::string& message)
-      : std::runtime_error (message), code (exit_code)
-  {
-  }
-
-  int code;
-};
-
 /// The command line is wrong, or asks for something impossible.
 struct UsageError : ToolError
 {
   explicit UsageError (const std::string& message) : ToolError (EXIT_USAGE, message) {}
 };
 
-/// Calls work (), and makes an exit code and a message of what it throws.
+/// Calls work (), and makes an exit code of what it throws, which it prints.
 /// \param if_no_memory what to do where memory was not enough
-/// \param to gets the message; nullptr: it is printed behind the name of the program
 int
-guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work,
-         std::string* to = nullptr);
+guarded (const char* program, const char* if_no_memory, const std::function<int ()>& work);
 
 /// Precision of the coordinates in outputs. Readers that expect 32-bit floats, as PCL's loadPLYFile
 /// into PointXYZ does, take doubles of a PLY file for (0, 0, 0).
