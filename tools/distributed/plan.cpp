@@ -32,12 +32,6 @@ hash (std::string_view text)
   return XXH3_64bits (text.data (), text.size ());
 }
 
-std::string
-textOf (const ManifestJson& json, int indent = -1)
-{
-  return json.dump (indent, ' ', false, ManifestJson::error_handler_t::replace);
-}
-
 std::vector<InputFile>
 describeInputs (const Job& job)
 {
@@ -58,7 +52,7 @@ planId (const std::vector<InputFile>& inputs, const std::string& parameters, std
   ManifestJson sums = ManifestJson::array ();
   for (const InputFile& input : inputs)
     sums.push_back ({input.bytes, input.checksum});
-  return hash (textOf ({WORK_FORMAT, parameters, sums, arguments, blocks}));
+  return hash (dump ({WORK_FORMAT, parameters, sums, arguments, blocks}));
 }
 
 std::string
@@ -67,8 +61,8 @@ manifestText (const Plan& plan)
   ManifestJson json = plan;
   json["format"] = FORMAT;
   json["version"] = WORK_FORMAT;
-  json["checksum"] = hash (textOf (json));
-  return textOf (json, 2) + "\n";
+  json["checksum"] = hash (dump (json));
+  return dump (json, 2) + "\n";
 }
 
 // Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
@@ -89,7 +83,7 @@ parametersText (const Job& job)
     json["columns"] = job.line.columns;
   if (!job.line.classes.empty ())
     json["classes"] = job.line.classes;
-  return json.dump ();
+  return dump (json);
 }
 
 } // namespace
@@ -108,7 +102,7 @@ readManifest (const Store& store)
                    "; use the version that made it, or an empty work folder");
     const ManifestJson checksum = json.at ("checksum");
     json.erase ("checksum");
-    if (checksum == hash (textOf (json)))
+    if (checksum == hash (dump (json)))
       return json.get<Plan> ();
   }
   catch (const nlohmann::json::exception&) { // is told below

@@ -93,16 +93,11 @@ struct OptionsReader
 {
   const py::dict& given;
 
-  template <typename Value>
-  void operator() (const OptionRow& row, Value& value)
+  template <typename Value, typename... Range>
+  void operator() (const OptionRow& row, Value& value, const Range&...)
   {
     if (given.contains (row.name))
       value = given[row.name].cast<Value> ();
-  }
-  template <typename Number>
-  void operator() (const OptionRow& row, Number& value, const NumberRange&)
-  {
-    (*this) (row, value);
   }
   template <typename Enum, std::size_t N>
   void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
@@ -221,8 +216,7 @@ arraysOfResult (const std::shared_ptr<const Result>& result)
 py::object
 toPython (const nlohmann::ordered_json& json)
 {
-  const std::string text = json.dump (-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return py::module_::import ("json").attr ("loads") (text);
+  return py::module_::import ("json").attr ("loads") (dump (json));
 }
 
 /// \param normals as many as points, or None

@@ -11,6 +11,7 @@
 #include "mesh/self_intersections.h"
 #include "points/neighbors.h"
 #include "report/findings.h"
+#include "report_json.h"
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>

@@ -131,6 +131,12 @@ struct TableWriter
 
 } // namespace
 
+std::string
+dump (const nlohmann::ordered_json& json, int indent)
+{
+  return json.dump (indent, ' ', false, Json::error_handler_t::replace);
+}
+
 nlohmann::ordered_json
 optionTableJson (const Options& options)
 {

@@ -11,6 +11,11 @@
 #include <string>
 
 namespace pcl::floater {
+/// JSON as text. It is UTF-8; in names of files, bytes that are not are replaced.
+/// \param indent -1: all on one line
+std::string
+dump (const nlohmann::ordered_json& json, int indent = -1);
+
 /// The options of a run, by the names of the tool.
 nlohmann::ordered_json
 optionsJson (const Options& options, bool use_input_normals);

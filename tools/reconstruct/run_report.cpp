@@ -184,13 +184,6 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
 
 } // namespace
 
-std::string
-dump (const nlohmann::ordered_json& json)
-{
-  constexpr int ONE_LINE = -1;
-  return json.dump (ONE_LINE, ' ', false, Json::error_handler_t::replace);
-}
-
 std::size_t
 peakMemory ()
 {

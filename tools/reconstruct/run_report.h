@@ -47,10 +47,6 @@ peakMemory ();
 void
 reportMemory (const CommandLine& line, Report& report);
 
-/// JSON on one line. It is UTF-8; in names of files, bytes that are not are replaced.
-std::string
-dump (const nlohmann::ordered_json& json);
-
 nlohmann::ordered_json
 reportJson (const CommandLine& command_line, const Report& report, const RunFigures& run);
 
