@@ -105,7 +105,7 @@ neighborsStep (const StepContext& context, std::size_t block)
 int
 outliersStep (const Job& job, const Store& store, const Plan& plan)
 {
-  const StepContext context (store, plan, job.line, job.join_threads);
+  const StepContext context{store, plan, job.line, job.join_threads};
   std::vector<Index> gross_outliers, outliers;
   Points points = readPoints (store, plan, gross_outliers);
   CsrLists neighbors = StoredCloud (context, {}).nearestOfAll ();

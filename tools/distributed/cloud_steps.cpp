@@ -38,10 +38,7 @@ class StoredStages : public KnownStages
 {
 public:
   /// \param context must outlive this
-  explicit StoredStages (const StepContext& context)
-      : context_ (context), left_out_ (readLeftOut (context))
-  {
-  }
+  explicit StoredStages (const StepContext& context) : context_ (context) {}
 
   Points points (Report& report) override
   {
@@ -88,7 +85,7 @@ public:
 
 private:
   const StepContext& context_;
-  LeftOut left_out_;
+  LeftOut left_out_ = readLeftOut (context_);
 };
 
 // The manifest, in the folder of the tiles. It is written last.
@@ -228,7 +225,7 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
                       {"vertex_number", VERTEX_NUMBER},
                       {"shift", {cloud.shift.x (), cloud.shift.y (), cloud.shift.z ()}},
                       {"tiles", list}};
-  writeFile (folder / TILES, manifest.dump (2, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile (folder / TILES, dump (manifest, 2) + "\n");
   return losses;
 }
 
@@ -260,7 +257,7 @@ joinStep (const Job& job, const Store& store, const Plan& plan)
 {
   const auto start = std::chrono::steady_clock::now ();
   CommandLine line = job.line;
-  const StepContext context (store, plan, line, job.join_threads);
+  const StepContext context{store, plan, line, job.join_threads};
   checkMemory (line, plan.cloudSize ());
   StoredStages stages (context);
   forBlockFiles (plan, [&] (const std::string& name) { // missing ones are told before hours of work

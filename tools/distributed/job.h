@@ -35,22 +35,15 @@ struct Job
   bool is_from_manifest = false; ///< files and options are those of the manifest
 };
 
-/// All that a step needs.
+/// All that a step needs. What it refers to must outlive it.
 struct StepContext
 {
-  /// \param store, plan must outlive this
-  StepContext (const Store& files, const Plan& of, const CommandLine& line,
-               const RunContext& context)
-      : store (files), plan (of), options (effectiveOptions (line.options)),
-        limits (effectiveLimits ({}, line.options)), run (context)
-  {
-  }
-
   const Store& store;
   const Plan& plan;
-  Options options; ///< effective
-  Limits limits;   ///< effective
+  const CommandLine& line;
   RunContext run;
+  Options options = effectiveOptions (line.options);
+  Limits limits = effectiveLimits ({}, line.options);
 };
 
 using BlockStep = void (const StepContext& context, std::size_t block);

@@ -320,7 +320,7 @@ workOnSteps (const Job& job, const Store& store)
       if (step.of_all != nullptr)
         return is_first && !isFinished (store, step, 0, plan) ? step.of_all (job, store, plan)
                                                               : EXIT_OK;
-      const StepContext context (store, plan, job.line, job.line.options.threads);
+      const StepContext context{store, plan, job.line, job.line.options.threads};
       for (std::size_t block = 0; block < plan.blocks; ++block)
         if ((does_all ? processes.has (block) : block == job.block) &&
             !isFinished (store, step, block, plan)) {

@@ -61,21 +61,18 @@ renameRepeated (Cloud& cloud)
   std::set<std::string> names{"x", "y", "z"};
   for (const Field& field : cloud.fields)
     names.insert (field.name);
-  std::set<std::string> taken{"x", "y", "z"};
-  std::map<std::string, std::size_t> numbers; // the last one of each name
+  std::map<std::string, std::size_t> numbers{{"x", 1}, {"y", 1}, {"z", 1}}; // the last of each name
   std::vector<std::string> warnings;
   for (Field& field : cloud.fields) {
-    if (taken.insert (field.name).second)
+    std::size_t& number = numbers[field.name];
+    if (++number == 1)
       continue;
-    std::size_t& number = numbers.emplace (field.name, 1).first->second;
-    std::string name;
-    do
+    std::string name = field.name + "_" + std::to_string (number);
+    while (!names.insert (name).second)
       name = field.name + "_" + std::to_string (++number);
-    while (!names.insert (name).second);
     warnings.push_back ("there are two fields '" + field.name + "': the second was renamed '" +
                         name + "'");
     field.name = name;
-    taken.insert (name);
   }
   constexpr std::size_t FEW = 3;
   if (warnings.size () > FEW)

@@ -16,17 +16,12 @@ exitCode (const Report& report, const RunFigures& run)
 {
   if (run.is_refused)
     return EXIT_WARNINGS;
-  switch (report.status) {
-  case RunStatus::SUCCESS:
-    return EXIT_OK;
-  case RunStatus::INVALID_OPTION:
-    return EXIT_USAGE;
-  case RunStatus::OUT_OF_MEMORY:
-  case RunStatus::INTERNAL_ERROR:
-    return EXIT_INTERNAL;
-  default:
-    return EXIT_RECONSTRUCTION;
-  }
+  const RunStatus status = report.status;
+  return status == RunStatus::SUCCESS          ? EXIT_OK
+         : status == RunStatus::INVALID_OPTION ? EXIT_USAGE
+         : status == RunStatus::OUT_OF_MEMORY || status == RunStatus::INTERNAL_ERROR
+             ? EXIT_INTERNAL
+             : EXIT_RECONSTRUCTION;
 }
 
 void

@@ -227,11 +227,10 @@ scratchFailure ()
     return std::to_string (bytes / 1'000'000) + " MB";
   };
   ScratchArrays& all = scratchArrays ();
-  ScratchFailure last;
-  {
+  const ScratchFailure last = [&all] {
     const std::lock_guard<std::mutex> lock (all.mutex);
-    last = all.failure;
-  }
+    return all.failure;
+  }();
   if (last.error == 0)
     return "";
   return "no room in the scratch folder '" + all.folder + "': " + std::strerror (last.error) +
