@@ -17,7 +17,6 @@
 #include <array>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {

@@ -321,8 +321,7 @@ inline KnownSurface
 withComponent (KnownSurface surface, const KnownSurface& more, double scale,
                const Eigen::Vector3d& place)
 {
-  for (const Eigen::Vector3d& p : more.points)
-    surface.points.emplace_back (scale * p + place);
+  surface.points = joined (std::move (surface.points), placed (more.points, place, scale));
   surface.components += more.components;
   surface.loops += more.loops;
   surface.handles += more.handles;

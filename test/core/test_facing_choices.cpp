@@ -133,10 +133,8 @@ TEST (FacingChoices, NormalsOfAClosedBody)
 
 TEST (FacingChoices, EveryComponentFacesByItsOwnNormals)
 {
-  Positions bodies = evenSphere (1500);
   const Vector3d other (5.0, 0.0, 0.0);
-  const Positions second = evenSphere (1500, other);
-  bodies.insert (bodies.end (), second.begin (), second.end ());
+  const Positions bodies = joined (evenSphere (1500), evenSphere (1500, other));
   const Direction opposite = [&] (const Vector3d& p) {
     return p.x () < 2.5 ? Vector3d (-p) : Vector3d (p - other);
   };

@@ -137,8 +137,7 @@ TEST (PublishedMethod, LeavesEverythingElseOut)
   Positions positions = wavySheet (2);
   positions.emplace_back (0.0, 0.0, 0.6);
   const std::size_t first = positions.size ();
-  for (const Eigen::Vector3d& p : disc (0.1, 2).positions)
-    positions.push_back (Eigen::Vector3d (10.0, 0.0, 0.0) + 0.5 * p);
+  positions = joined (positions, placed (disc (0.1, 2).positions, {10.0, 0.0, 0.0}, 0.5));
   const std::size_t second = positions.size () - first;
   const Result usual = reconstruct (asInput (positions), discOptions ());
   const Result as_published = reconstruct (asInput (positions), published ());

@@ -55,14 +55,12 @@ TEST (RunStatus, OfRunsThatFail)
   for (int i = 0; i < 120; ++i)
     curve.emplace_back (i, 1e-3 * std::sin (7.0 * i), 1e-3 * std::cos (5.0 * i));
   for (std::uint64_t i = 0; i < 3; ++i)
-    for (const Eigen::Vector3d& p : discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1))
-      three_discs.push_back (p);
+    three_discs = joined (three_discs, discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1));
   const Positions disc = discAt ({0, 0, 0}, 1.0, 3);
   const auto size = static_cast<Index> (disc.size ());
   Positions apart = curve; // three curves, too far apart for a scan
   for (const double y : {300.0, 600.0})
-    for (const Eigen::Vector3d& p : curve)
-      apart.emplace_back (p.x (), y + p.y (), p.z ());
+    apart = joined (apart, placed (curve, {0.0, y, 0.0}));
   Options made_surface, no_view, few_neighbors = discOptions (), few_iterations = discOptions ();
   made_surface.topology = Topology::SURFACE;
   no_view.view.use = ViewUse::NEVER;

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints what the reader makes of a file, as JSON: read_cloud FILE [X,Y,Z [CLASS,CLASS,...]]
+// Prints what the reader makes of a file, as JSON: read_cloud FILE [COLUMNS [CLASSES]], both lists of JSON.
 // read_cloud --prefixes FILE STEP: lengths of its beginnings that are not refused, the longest first.
 #include "cloud_reader.h"
 
 #include <nlohmann/json.hpp>
 
 #include <iostream>
-#include <sstream>
 
 namespace pcl::floater {
 namespace {
@@ -52,16 +51,6 @@ describe (Cloud& cloud)
   return all;
 }
 
-std::vector<int>
-numbersOf (const char* text)
-{
-  std::istringstream words (text);
-  std::vector<int> numbers;
-  for (std::string word; std::getline (words, word, ',');)
-    numbers.push_back (std::stoi (word));
-  return numbers;
-}
-
 Json
 readablePrefixes (const std::filesystem::path& path, std::size_t step)
 {
@@ -96,10 +85,10 @@ main (int argc, char** argv)
       result = readablePrefixes (argv[2], std::stoul (argv[3]));
     else {
       ReadOptions options;
-      for (std::size_t axis = 0; axis < 3 && argc > 2; ++axis)
-        options.columns[axis] = static_cast<std::size_t> (numbersOf (argv[2])[axis]);
+      if (argc > 2)
+        Json::parse (argv[2]).get_to (options.columns);
       if (argc > 3)
-        options.classes = numbersOf (argv[3]);
+        Json::parse (argv[3]).get_to (options.classes);
       Cloud cloud = readCloud (argv[1], options);
       result = describe (cloud);
     }

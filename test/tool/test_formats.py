@@ -7,7 +7,7 @@ import struct
 import numpy as np
 import pytest
 from conftest import HAS_LZF, OUTPUT, USAGE
-from files import las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of, table_text
+from files import crosses, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of, table_text
 
 NAN, PLY_KINDS = float("nan"), ("ascii", "binary_little_endian", "binary_big_endian")
 
@@ -19,12 +19,6 @@ def same(a, b):
 
 def same_floats(a, b):
     return same(np.asarray(a, "f4"), np.asarray(b, "f4"))
-
-
-def crosses(mesh):
-    """Normals of the triangles, as long as twice their areas."""
-    a, b, c = (mesh.points[mesh.triangles[:, i]].astype(float) for i in range(3))
-    return np.cross(b - a, c - a)
 
 
 def expect_disc(mesh, size):
@@ -341,20 +335,11 @@ def test_texture_of_points_that_are_left_out(body):
 
 
 def test_colours_are_baked(body):
-    image_io = pytest.importorskip("vtkmodules.vtkIOImage")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    def pixels(name):
-        """Rows from below, as v counts them."""
-        reader = image_io.vtkPNGReader()
-        reader.SetFileName(str(body.path(name)))
-        reader.Update()
-        side = reader.GetOutput().GetDimensions()[0]
-        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(-1, side, 3)
+    pytest.importorskip("matplotlib")
     body.path("images").mkdir()
     body.succeed("--texture images/colours.png in.ply out.obj")
     assert "map_Kd images/colours.png\n" in body.text("out.mtl")
-    obj, image = body.mesh("out.obj"), pixels("images/colours.png")
+    obj, image = body.mesh("out.obj"), body.pixels("images/colours.png")[::-1]  # from below, as v counts
     assert image.shape[0] == image.shape[1] >= 256
     # In the middle of each triangle, the mean of the colours of its corners.
     x, y = (obj.coordinates[obj.corners].mean(1) * len(image)).astype(int).T
@@ -364,7 +349,7 @@ def test_colours_are_baked(body):
     body.succeed("-j1 --texture images/colours.png in.ply out.obj")
     assert body.read("images/colours.png") == first
     body.succeed("--texture small.png --texture-size 100 in.ply out.vtk")
-    assert pixels("small.png").shape == (100, 100, 3)
+    assert body.pixels("small.png").shape == (100, 100, 3)
 
 
 def test_texture_is_written_with_all_or_not(body):

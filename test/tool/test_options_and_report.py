@@ -5,7 +5,7 @@ allow."""
 import numpy as np
 import pytest
 from conftest import INPUT, RECONSTRUCTION, REFUSED, USAGE
-from files import OTHER_VALUES, json_of, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of
+from files import OTHER_VALUES, crosses, json_of, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of
 
 NAN = float("nan")
 
@@ -137,8 +137,7 @@ def test_the_method_of_the_report_and_options_without_effect(cloud):
 
 def share_up(mesh):
     """Share of the triangles that face up."""
-    a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
-    return (np.cross(b - a, c - a)[:, 2] > 0).mean()
+    return (crosses(mesh)[:, 2] > 0).mean()
 
 
 def test_normals_of_the_input_reach_the_run(cloud):

@@ -175,9 +175,9 @@ def test_columns_are_chosen(tool, read):
     for text, fields in (("0 7 2 1.5 -3\n1 8 5e-3 4 0.1\n", "column_1 0 1, column_2 7 8"),
                          ("id;a;b;c;d\n0;7;2;1.5;-3\n1;8;5e-3;4;.1\n", "id 0 1, a 7 8"),
                          ("# x y z red n\n0 7 2 1.5 -3\n1 8 5e-3 4 0.1\n", "column_1 0 1, column_2 7 8")):
-        cloud = read("a.xyz", text, "4,3,5")
+        cloud = read("a.xyz", text, "[4,3,5]")
         assert (cloud.points, cloud.text, cloud.warnings) == ([[1.5, 2, -3], [4, 5e-3, 0.1]], fields, [])
-        assert read("a.xyz", text, "4,3,6").error
+        assert read("a.xyz", text, "[4,3,6]").error
     tool.fail("--columns 1,2,2 a.xyz o.ply", USAGE, "three different")
     tool.write("a.ply", ply("", "0", ROWS))
     tool.fail("--columns 1,2,3 a.ply o.ply", INPUT, "--columns is for text")
@@ -308,8 +308,8 @@ def test_classes_of_las(tool, read):
         assert cloud.left_out == [False, True, True, False]
         assert cloud.notes == ["1 point that the file marks as withheld was left out",
                                "1 point of class 7 (1) was left out"]
-        assert read("a.las", data, "0,0,0", "7,5").left_out == [True, False, True, False]
-        assert read("a.las", data, "0,0,0", "6").error  # which is withheld
+        assert read("a.las", data, "[0,0,0]", "[7,5]").left_out == [True, False, True, False]
+        assert read("a.las", data, "[0,0,0]", "[6]").error  # which is withheld
     assert read("a.las", las_bytes(**LAS)).left_out == []
     tool.write("a.xyz", "1 2 3\n4 5 6\n")
     tool.fail("--classes 2,6 a.xyz o.ply", INPUT, "no field 'classification'")

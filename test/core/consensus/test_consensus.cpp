@@ -14,11 +14,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <cstdlib>
 #include <random>
-#include <set>
 #include <string>
 
 namespace pcl::floater {

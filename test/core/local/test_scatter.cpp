@@ -70,10 +70,8 @@ reportOn (const Positions& positions, ScatterPolicy policy = ScatterPolicy::KEEP
 Positions
 sphereAndBush (std::size_t on_sphere, std::size_t in_bush)
 {
-  Positions positions = surface (SurfaceKind::SPHERE, on_sphere);
-  for (const Eigen::Vector3d& p : strewn (Strewn::BOX, in_bush, 4))
-    positions.emplace_back (0.3 * p + Eigen::Vector3d (2.0, 0.0, 0.0));
-  return positions;
+  return joined (surface (SurfaceKind::SPHERE, on_sphere),
+                 placed (strewn (Strewn::BOX, in_bush, 4), {2.0, 0.0, 0.0}, 0.3));
 }
 
 TEST (Scatter, IsFoundWhateverItsKind)

@@ -151,6 +151,17 @@ sheet (Index side)
                 [] (Index x, Index y) { return Eigen::Vector3d (0.1 * x, 0.1 * y, 0.0); });
 }
 
+/// \param noise of the heights, a standard deviation
+inline Mesh
+noisySheet (Index side, double noise, std::uint64_t seed)
+{
+  Mesh mesh = sheet (side);
+  RandomStream random (seed);
+  for (Eigen::Vector3d& p : mesh.positions)
+    p.z () = noise * random.normal ();
+  return mesh;
+}
+
 inline Mesh
 torus (Index around, Index across)
 {

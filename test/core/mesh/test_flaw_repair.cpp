@@ -291,8 +291,7 @@ TEST (Ridges, AreSharpEdgesThatStickOut)
     for (const Index corner : {0U, 1U, 3U})
       expected.push_back ({4 * x + corner, 4 * x + 4 + corner});
   EXPECT_EQ (ridgesOf (mesh).ends, expected);
-  for (Triangle& t : mesh.triangles)
-    std::swap (t[1], t[2]);
+  turnRound (mesh);
   EXPECT_EQ (ridgesOf (mesh).ends, expected) << "inside out";
   EXPECT_TRUE (ridgesOf (mesh).has (4, 0) && ridgesOf (mesh).has (0, 4));
   EXPECT_FALSE (ridgesOf (mesh).has (2, 6)) << "the notch";

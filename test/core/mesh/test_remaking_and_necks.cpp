@@ -83,11 +83,8 @@ struct Spheres
                  [] (const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
                    return hilbertCode (p / 4.0) < hilbertCode (q / 4.0);
                  });
-    Positions second = first;
-    for (Eigen::Vector3d& p : second)
-      p.x () += 2.0 + gap;
     Mesh both;
-    for (const Positions& one : {first, second})
+    for (const Positions& one : {first, placed (first, {2.0 + gap, 0.0, 0.0})})
       append (both, {one, remakePlace (placeOf (one), 1).triangles});
     positions = both.positions;
     mesh = connected (both);

@@ -24,9 +24,7 @@ TEST (SelfIntersections, TwoTrianglesThatShareACornerOrAnEdge)
 {
   // A right triangle in z = 0, and another one with some of its corners.
   const auto crosses = [] (const Positions& more, const Triangle& other) {
-    Positions all{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    all.insert (all.end (), more.begin (), more.end ());
-    return doCross ({0, 1, 2}, other, all);
+    return doCross ({0, 1, 2}, other, joined ({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, more));
   };
   // No common corner: through the middle, beside it, and touching by a corner.
   EXPECT_TRUE (crosses ({{0.2, 0.2, -1}, {0.2, 0.2, 1}, {2, 2, 0.5}}, {3, 4, 5}));

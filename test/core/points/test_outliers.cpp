@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -299,14 +298,9 @@ TEST (InvalidPoints, RepeatedPointsOfASurface)
   expectInvalid (torus, 0, 0);
   expectInvalid (joined (torus, torus), 0, 0);
   // A small thing in the middle of a large one.
-  Positions small = surface (SurfaceKind::TORUS, 3000);
-  for (Eigen::Vector3d& p : small)
-    p *= 1e-4;
+  const Positions small = placed (surface (SurfaceKind::TORUS, 3000), {0, 0, 0}, 1e-4);
   expectInvalid (joined (small, torus), 0, 0);
-  Positions room = frame (100);
-  for (const Eigen::Vector3d& p : surface (SurfaceKind::TORUS, 3000))
-    room.push_back (0.003 * p);
-  expectInvalid (room, 0, 0);
+  expectInvalid (joined (frame (100), placed (small, {0, 0, 0}, 30.0)), 0, 0);
 }
 
 TEST (InvalidPoints, CellsWithoutData)

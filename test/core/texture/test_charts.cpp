@@ -28,16 +28,6 @@ layOut (const Mesh& mesh, const DescentLimits& limits = {})
   return layOutChart (mesh.triangles, indices (mesh.triangles.size ()), mesh.positions, limits, 1);
 }
 
-Mesh
-noisySheet (Index side, double noise, std::uint64_t seed)
-{
-  Mesh mesh = sheet (side);
-  RandomStream random (seed);
-  for (Eigen::Vector3d& p : mesh.positions)
-    p.z () = noise * random.normal ();
-  return mesh;
-}
-
 StretchSums
 stretchOfOne (const std::array<Eigen::Vector3d, 3>& place, const std::array<Eigen::Vector2d, 3>& uv)
 {

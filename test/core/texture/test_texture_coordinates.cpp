@@ -276,11 +276,7 @@ TEST (TextureCoordinates, NoiseDoesNotDecideCharts)
 {
   for (const double noise : {0.1, 0.3, 1.0}) { // spacings
     SCOPED_TRACE (noise);
-    Mesh noisy = sheet (40);
-    RandomStream random (7);
-    for (Eigen::Vector3d& p : noisy.positions)
-      p.z () = 0.1 * noise * random.normal ();
-    const TextureCoordinates texture = textureOf (noisy);
+    const TextureCoordinates texture = textureOf (noisySheet (40, 0.1 * noise, 7));
     EXPECT_LE (texture.chart_count, 3U);
     EXPECT_LT (texture.stretch, 1.0 + 0.5 * noise);
   }
