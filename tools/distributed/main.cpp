@@ -51,15 +51,6 @@ Exit codes:
   7  a file of the work folder is missing, damaged, of another version, or of another plan
 )";
 
-/// The step of this name; nullptr if there is none.
-const Step*
-findStep (const std::string& name)
-{
-  const auto* const step = std::find_if (
-      STEPS.begin (), STEPS.end (), [&name] (const Step& known) { return name == known.name; });
-  return step == STEPS.end () ? nullptr : step;
-}
-
 void
 addSteps (CLI::App& app, Job& job)
 {
@@ -76,7 +67,9 @@ addSteps (CLI::App& app, Job& job)
     (step.of_block != nullptr ? of_blocks : of_all) += std::string (", ") + step.name;
   }
   const auto choose = [&job, names] (const std::string& word) {
-    job.step = findStep (word);
+    for (const Step& step : STEPS)
+      if (word == step.name)
+        job.step = &step;
     return job.step != nullptr ? "" : "is no step" + didYouMean (word, names);
   };
   addParsed (app, "--step", choose,
