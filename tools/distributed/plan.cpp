@@ -127,10 +127,8 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
   if (merged.rows > static_cast<std::size_t> (std::numeric_limits<std::int32_t>::max ()))
     throw ReadError ("the files have more points together than a mesh file can number "
                      "(2147483647); reconstruct fewer of them at a time");
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    merged.coordinates[axis].name = std::string (1, "xyz"[axis]);
-    merged.coordinates[axis].type = ScalarType::FLOAT64;
-  }
+  merged.coordinates = {
+      {{"x", ScalarType::FLOAT64}, {"y", ScalarType::FLOAT64}, {"z", ScalarType::FLOAT64}}};
   for (const Field& field : clouds.front ().fields)
     if (std::all_of (clouds.begin (), clouds.end (), [&field] (const Cloud& cloud) {
           const Field* const its = cloud.find (field.name);

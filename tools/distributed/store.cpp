@@ -53,12 +53,8 @@ withChecksums (std::uint64_t bytes)
 void
 Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan) const
 {
-  Head head{MAGIC,
-            WORK_FORMAT,
-            static_cast<std::uint32_t> (arrays.size ()),
-            plan,
-            sizeof (Head) + arrays.size () * sizeof (ArrayEntry),
-            0};
+  Head head{MAGIC, WORK_FORMAT, static_cast<std::uint32_t> (arrays.size ()), plan, 0, 0};
+  head.size = sizeof (Head) + arrays.size () * sizeof (ArrayEntry);
   std::vector<ArrayEntry> table;
   for (const NamedArray& array : arrays) {
     ArrayEntry& entry = table.emplace_back (ArrayEntry{{}, array.element, array.count, head.size});

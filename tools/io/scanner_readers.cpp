@@ -31,31 +31,20 @@ constexpr std::size_t INTENSITY_AT = 12; ///< in a point
 constexpr std::size_t BITS_AT = 14;      ///< two bytes; what they hold depends on the format
 constexpr std::size_t FIRST_LONG = 6;    ///< point format from which on the class has a byte
 
-/// A format of points: the size of one, and where it has its time and its colour, if it has them.
-struct PointFormat
-{
-  std::size_t size, time_at, color_at;
-};
-constexpr std::array<PointFormat, 11> FORMATS{{{20, 0, 0},
-                                               {28, 20, 0},
-                                               {26, 0, 20},
-                                               {34, 20, 28},
-                                               {57, 20, 0},
-                                               {63, 20, 28},
-                                               {30, 22, 0},
-                                               {36, 22, 30},
-                                               {38, 22, 30},
-                                               {59, 22, 0},
-                                               {67, 22, 30}}};
+/// Of each format of points: the size of one, and where it has its time and its colour; 0: it has none.
+constexpr std::array<std::size_t, 11> POINT_SIZE{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+constexpr std::array<std::size_t, 11> TIME_AT{0, 20, 0, 20, 20, 20, 22, 22, 22, 22, 22};
+constexpr std::array<std::size_t, 11> COLOR_AT{0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};
 
 struct LasHeader
 {
   std::size_t points_at = 0;
   std::size_t record_size = 0;
-  PointFormat format{};
-  bool is_long = false; ///< the format is one of LAS 1.4
+  unsigned format = 0; ///< of points
   std::uint64_t count = 0;
   std::array<double, 3> scales{}, offsets{};
+
+  bool isLong () const { return format >= FIRST_LONG; }
 };
 
 template <typename T>
@@ -89,20 +78,18 @@ readHeader (std::string_view bytes)
     throw ReadError ("its header tells that the points begin at byte " +
                      std::to_string (header.points_at) +
                      ", where there are none; the file is truncated or its header is wrong");
-  const unsigned format = numberAt<std::uint8_t> (bytes, FORMAT_AT);
+  header.format = numberAt<std::uint8_t> (bytes, FORMAT_AT);
   constexpr unsigned COMPRESSED = 0xC0; // the bits that compressors set
-  if ((format & COMPRESSED) != 0)
+  if ((header.format & COMPRESSED) != 0)
     throw ReadError (LAZ_ADVICE);
-  if (format >= FORMATS.size ())
-    throw ReadError ("its points are of format " + std::to_string (format) +
+  if (header.format >= POINT_SIZE.size ())
+    throw ReadError ("its points are of format " + std::to_string (header.format) +
                      "; 0 to 10 can be read");
-  header.format = FORMATS[format];
-  header.is_long = format >= FIRST_LONG;
   header.record_size = numberAt<std::uint16_t> (bytes, RECORD_SIZE_AT);
-  if (header.record_size < header.format.size)
+  if (header.record_size < POINT_SIZE[header.format])
     throw ReadError ("its header gives each point " + counted (header.record_size, "byte") +
-                     ", fewer than the " + std::to_string (header.format.size) +
-                     " of point format " + std::to_string (format));
+                     ", fewer than the " + std::to_string (POINT_SIZE[header.format]) +
+                     " of point format " + std::to_string (header.format));
   header.count = numberAt<std::uint32_t> (bytes, LEGACY_COUNT_AT);
   if (minor >= 4)
     if (const auto count = numberAt<std::uint64_t> (bytes, COUNT_AT); count > 0)
@@ -123,8 +110,8 @@ hasColors (std::string_view bytes, const LasHeader& header)
 {
   constexpr std::size_t CHANNELS = 3 * sizeof (std::uint16_t);
   for (std::size_t p = 0; p < header.count; ++p) {
-    const std::string_view color =
-        bytes.substr (header.points_at + p * header.record_size + header.format.color_at, CHANNELS);
+    const std::string_view color = bytes.substr (
+        header.points_at + p * header.record_size + COLOR_AT[header.format], CHANNELS);
     if (color.find_first_not_of ('\0') != std::string_view::npos)
       return true;
   }
@@ -142,7 +129,7 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
   constexpr std::array<std::array<Bits, 5>, 2> BITS{
       {{{{0, 0, 3}, {0, 3, 3}, {1, 0, 5}, {1, 5, 1}, {1, 7, 1}}},
        {{{0, 0, 4}, {0, 4, 4}, {2, 0, 8}, {1, 0, 1}, {1, 2, 1}}}}};
-  const auto& all = BITS[header.is_long ? 1 : 0];
+  const auto& all = BITS[header.isLong () ? 1 : 0];
   std::vector<Field> unpacked{
       {"return_number"}, {"number_of_returns"}, {"classification"}, {"synthetic"}, {"withheld"}};
   for (Field& field : unpacked)
@@ -238,11 +225,8 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   requireRoom ("points", header.count, header.record_size, bytes.size () - header.points_at);
   std::vector<Field> fields;
   const auto add = [&] (const char* name, ScalarType type, std::size_t at) -> Field& {
-    Field& field = fields.emplace_back (Field{name, type});
-    field.first = file.at (header.points_at + at);
-    field.stride = header.record_size;
-    field.order = ByteOrder::LITTLE;
-    return field;
+    return fields.emplace_back (Field{name, type, 1, file.at (header.points_at + at),
+                                      header.record_size, ByteOrder::LITTLE});
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     constexpr std::array<const char*, 3> AXES{"x", "y", "z"};
@@ -252,8 +236,8 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   }
   add ("intensity", ScalarType::UINT16, INTENSITY_AT);
   addBits (file, header, fields);
-  add ("point_source_id", ScalarType::UINT16, header.is_long ? 20 : 18);
-  const std::size_t time_at = header.format.time_at, color_at = header.format.color_at;
+  add ("point_source_id", ScalarType::UINT16, header.isLong () ? 20 : 18);
+  const std::size_t time_at = TIME_AT[header.format], color_at = COLOR_AT[header.format];
   if (time_at > 0)
     add ("gps_time", ScalarType::FLOAT64, time_at);
   std::vector<std::string> warnings;

@@ -22,6 +22,7 @@
 #include <numeric>
 
 namespace py = pybind11;
+using namespace py::literals;
 
 namespace pcl::floater {
 namespace {
@@ -185,12 +186,8 @@ arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
     using Given = typename T::value_type; // indices are unsigned
     using Number = std::conditional_t<std::is_same_v<Given, std::uint32_t>, std::int32_t, Given>;
     constexpr py::ssize_t ELEMENT = sizeof (Number);
-    return {owner,
-            values.data (),
-            ELEMENT,
-            py::format_descriptor<Number>::format (),
-            {rows, ROW / ELEMENT},
-            {ROW, ELEMENT}};
+    const std::string format = py::format_descriptor<Number>::format ();
+    return {owner, values.data (), ELEMENT, format, {rows, ROW / ELEMENT}, {ROW, ELEMENT}};
   }
 }
 
@@ -200,17 +197,15 @@ py::dict
 arraysOfResult (const std::shared_ptr<const Result>& result)
 {
   const Report& report = result->report;
-  py::dict arrays;
-  arrays["triangles"] = arrayOf (result, result->triangles);
-  arrays["loop"] = arrayOf (result, report.loop);
-  arrays["unused"] = arrayOf (result, report.unused);
-  arrays["outliers"] = arrayOf (result, report.outliers);
-  arrays["scatter"] = arrayOf (result, report.scatter);
-  arrays["non_finite"] = arrayOf (result, report.non_finite);
-  arrays["duplicates"] = arrayOf (result, report.duplicates);
-  arrays["parameters"] =
-      report.parameters.empty () ? py::none () : py::cast (arrayOf (result, report.parameters));
-  return arrays;
+  return py::dict (
+      "triangles"_a = arrayOf (result, result->triangles), "loop"_a = arrayOf (result, report.loop),
+      "unused"_a = arrayOf (result, report.unused),
+      "outliers"_a = arrayOf (result, report.outliers),
+      "scatter"_a = arrayOf (result, report.scatter),
+      "non_finite"_a = arrayOf (result, report.non_finite),
+      "duplicates"_a = arrayOf (result, report.duplicates),
+      "parameters"_a = report.parameters.empty () ? py::none ()
+                                                  : py::cast (arrayOf (result, report.parameters)));
 }
 
 py::object
@@ -326,20 +321,16 @@ textureOf (const py::buffer& points, const py::buffer& triangles, double largest
     *texture = computeTextureCoordinates (copyRows<Eigen::Vector3d> (rows), corners, options);
   }
   watch.rethrow ();
-  py::dict figures;
-  figures["charts"] = texture->chart_count;
-  figures["flipped"] = texture->flipped;
-  figures["stretch"] = texture->stretch;
-  figures["largest_stretch"] = texture->largest_stretch;
-  figures["area_used"] = texture->area_used;
-  figures["seam_length"] = texture->seam_length;
-  figures["gutter"] = texture->gutter;
-  py::dict arrays;
-  arrays["coordinates"] = arrayOf (texture, texture->coordinates);
-  arrays["points"] = arrayOf (texture, texture->points);
-  arrays["corners"] = arrayOf (texture, texture->corners);
-  arrays["charts"] = arrayOf (texture, texture->charts);
-  arrays["seams"] = arrayOf (texture, texture->seams);
+  const py::dict figures ("charts"_a = texture->chart_count, "flipped"_a = texture->flipped,
+                          "stretch"_a = texture->stretch,
+                          "largest_stretch"_a = texture->largest_stretch,
+                          "area_used"_a = texture->area_used,
+                          "seam_length"_a = texture->seam_length, "gutter"_a = texture->gutter);
+  const py::dict arrays ("coordinates"_a = arrayOf (texture, texture->coordinates),
+                         "points"_a = arrayOf (texture, texture->points),
+                         "corners"_a = arrayOf (texture, texture->corners),
+                         "charts"_a = arrayOf (texture, texture->charts),
+                         "seams"_a = arrayOf (texture, texture->seams));
   return py::make_tuple (statusName (texture->status), texture->message, figures, arrays);
 }
 
