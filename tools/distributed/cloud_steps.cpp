@@ -118,7 +118,7 @@ findOwners (const Cloud& cloud, const std::vector<std::size_t>& firsts, const St
     }
     return tile_of;
   }
-  ArrayFile file = openArrays (store, POINTS, plan);
+  ArrayFile file = store.arrays (POINTS, plan);
   const std::vector<Index> cloud_index = file.read<Index> ("cloud_index");
   for (std::uint32_t block = 0; block < plan.blocks; ++block)
     for (Index p = BlockCutter::firstOf (block, plan.blocks, plan.points);
@@ -261,7 +261,7 @@ joinStep (const Job& job, const Store& store, const Plan& plan)
   checkMemory (line, plan.cloudSize ());
   StoredStages stages (context);
   forBlockFiles (plan, [&] (const std::string& name) { // missing ones are told before hours of work
-    openArrays (store, name, plan);
+    store.arrays (name, plan);
   });
   Input input;
   input.cloud_size = plan.cloudSize ();
@@ -292,11 +292,11 @@ int
 writeStep (const Job& job, const Store& store, const Plan& plan)
 {
   const CommandLine& line = job.line;
-  ArrayFile file = openArrays (store, TRIANGLES, plan);
+  ArrayFile file = store.arrays (TRIANGLES, plan);
   auto triangles = file.read<Triangle> ("triangles");
   file.requireBelow (triangles, plan.cloudSize ());
   std::vector<std::size_t> firsts;
-  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), firsts);
+  Cloud cloud = readClouds (job.inputs, line.readOptions (), firsts);
   cloud.shift = plan.shift ();
   cloud.single_precision = line.precision != Precision::DOUBLE;
   requirePlan (job, store, plan); // the bytes of now

@@ -240,7 +240,7 @@ isFinished (const Store& store, const Step& step, std::size_t block, const Plan&
   const std::string name = step.file != nullptr ? step.file : blockFile (step.name, block);
   if (!store.has (name))
     return false;
-  openArrays (store, name, plan).verify ();
+  store.arrays (name, plan).verify ();
   return true;
 }
 
@@ -264,7 +264,7 @@ findPlan (const Job& job, const Store& store, Plan& plan)
     throw UsageError ("--block " + std::to_string (job.block) + ": there are only " +
                       std::to_string (plan.blocks) + " blocks, which are numbered from 0");
   if (job.step == nullptr)
-    openArrays (store, POINTS, plan).verify ();
+    store.arrays (POINTS, plan).verify ();
   return EXIT_OK;
 }
 

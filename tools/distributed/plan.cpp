@@ -198,7 +198,7 @@ planStep (const Job& job, const Store& store)
   plan.inputs = describeInputs (job);
   CommandLine line = job.line;
   std::vector<std::size_t> firsts;
-  Cloud cloud = readClouds (job.inputs, readOptionsOf (line), firsts);
+  Cloud cloud = readClouds (job.inputs, line.readOptions (), firsts);
   Input input = prepareInput (line, cloud, plan.figures, KEPT_BY_PLAN);
   plan.warnings = cloud.warnings;
   plan.figures.vertices = static_cast<std::size_t> (

@@ -193,6 +193,10 @@ public:
   std::filesystem::path path (const std::string& name) const { return folder_ / name; }
   bool has (const std::string& name) const { return std::filesystem::exists (path (name)); }
   WorkFile open (const std::string& name) const { return WorkFile (path (name)); }
+  ArrayFile arrays (const std::string& name, const Plan& plan) const
+  {
+    return {open (name), plan.id};
+  }
 
   /// \param plan of which the arrays are a part
   /// \throws WriteError
@@ -220,12 +224,6 @@ inline std::string
 blockFile (const char* step, std::size_t block)
 {
   return std::string (step) + "." + std::to_string (block) + ".bin";
-}
-
-inline ArrayFile
-openArrays (const Store& store, const std::string& name, const Plan& plan)
-{
-  return {store.open (name), plan.id};
 }
 
 /// \throws WorkError if there is no manifest, it is of another version, or damaged

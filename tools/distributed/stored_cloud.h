@@ -36,7 +36,7 @@ struct LeftOut
 inline LeftOut
 readLeftOut (const StepContext& context)
 {
-  ArrayFile file = openArrays (context.store, OUTLIERS, context.plan);
+  ArrayFile file = context.store.arrays (OUTLIERS, context.plan);
   LeftOut left_out{file.count ("are_stacked") > 0, file.read<Index> ("outliers")};
   const std::vector<Index>& outliers = left_out.outliers;
   file.requireBelow (outliers, context.plan.points);
@@ -69,7 +69,7 @@ writePoints (const Store& store, const std::string& name, std::uint64_t plan, co
 inline Points
 readPoints (const Store& store, const Plan& plan, std::vector<Index>& gross_outliers)
 {
-  ArrayFile file = openArrays (store, POINTS, plan);
+  ArrayFile file = store.arrays (POINTS, plan);
   Points points;
   points.positions = file.read<Eigen::Vector3d> ("positions");
   points.cloud_index = file.read<Index> ("cloud_index");
@@ -98,8 +98,7 @@ public:
   /// \param context must outlive this
   StoredCloud (const StepContext& context, const LeftOut& left_out)
       : context_ (context), neighbors_step_ (left_out.isNothing () ? "neighbors" : "planes"),
-        file_ (
-            openArrays (context.store, left_out.isNothing () ? POINTS : POINTS_LEFT, context.plan)),
+        file_ (context.store.arrays (left_out.isNothing () ? POINTS : POINTS_LEFT, context.plan)),
         points_ (file_.count ("positions")),
         cutter_{points_, file_.read<Box> ("buckets"), context.plan.blocks,
                 [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
@@ -141,8 +140,7 @@ public:
     const auto known = slices_.find (name);
     return known != slices_.end ()
                ? known->second
-               : slices_.emplace (name, openArrays (context_.store, name, context_.plan))
-                     .first->second;
+               : slices_.emplace (name, context_.store.arrays (name, context_.plan)).first->second;
   }
 
   /// Values of some points from an array of a step, `width` for each. If they are indices, these must

@@ -207,12 +207,12 @@ Cloud::positions () const
 }
 
 std::string
-shiftText (const Cloud& cloud)
+Cloud::shiftText () const
 {
   std::string text;
-  if (cloud.shift.isZero (0.0))
+  if (shift.isZero (0.0))
     return text;
-  for (const double value : cloud.shift) {
+  for (const double value : shift) {
     constexpr std::size_t LONGEST = 512; // 1e-308 in full
     std::array<char, LONGEST> digits{};
     const auto end = std::to_chars (digits.data (), digits.data () + digits.size (), value,

@@ -252,6 +252,9 @@ struct Cloud
 
   std::vector<Eigen::Vector3d> positions () const;
 
+  /// The shift, "500000 5500000 0"; empty if there is none.
+  std::string shiftText () const;
+
   /// The field of this name, or nullptr.
   const Field* find (const std::string& name) const
   {
@@ -342,10 +345,6 @@ facesLeftOut (std::size_t faces)
   return counted (faces, "face") + " of the input file " + (faces == 1 ? "was" : "were") +
          " left out: only its points are used";
 }
-
-/// The shift as text, "500000 5500000 0"; empty if there is none.
-std::string
-shiftText (const Cloud& cloud);
 
 /// Leaves rows out of the mesh and of its file, with a note that counts them; the numbers of all
 /// points stay until that is written.

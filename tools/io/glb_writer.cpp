@@ -76,7 +76,7 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 
   constexpr double HALF_ROOT = 0.70710678118654752440;
   Json asset{{"version", "2.0"}, {"generator", "pcl_floater_reconstruct"}};
-  if (const std::string shift = shiftText (cloud); !shift.empty ())
+  if (const std::string shift = cloud.shiftText (); !shift.empty ())
     asset["extras"] = Json{{"shift", shift}};
   const Json primitive{
       {"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", TRIANGLES}};

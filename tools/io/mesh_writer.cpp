@@ -14,7 +14,7 @@ constexpr const char* COMMENT = "written by pcl_floater_reconstruct";
 std::string
 shiftLine (const char* begin, const Cloud& cloud)
 {
-  const std::string shift = shiftText (cloud);
+  const std::string shift = cloud.shiftText ();
   return shift.empty () ? "" : begin + shift + "\n";
 }
 
@@ -165,7 +165,7 @@ writeValues (AtomicFile& file, const std::array<const Field*, N>& fields, const 
 void
 writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool with_texture)
 {
-  const std::string shift = shiftText (cloud);
+  const std::string shift = cloud.shiftText ();
   file.print ("# vtk DataFile Version 3.0\n", COMMENT, shift.empty () ? "" : ", shift ", shift,
               "\nBINARY\nDATASET POLYDATA\nPOINTS ", cloud.size (),
               cloud.single_precision ? " float\n" : " double\n");

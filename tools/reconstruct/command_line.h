@@ -73,6 +73,9 @@ struct CommandLine
     return input_format != nullptr ? input_format : cloudFormatOf (input);
   }
 
+  /// How the input is read: all digits of a text count if it is shifted.
+  ReadOptions readOptions () const { return {auto_shift || shift, columns, classes}; }
+
   std::optional<MeshFormat> meshFormat () const
   {
     return output_format ? output_format : meshFormatOf (output);

@@ -261,7 +261,7 @@ run (CommandLine line)
   if (!line.loop.empty ())
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   Cloud cloud = readNamed (
-      line.input, [&] { return readCloud (line.input, readOptionsOf (line), line.input_format); });
+      line.input, [&] { return readCloud (line.input, line.readOptions (), line.input_format); });
   if (!line.texture.empty () && !colorFields (cloud)[0])
     throw UsageError ("--texture: the points of '" + line.input.string () +
                       "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for "

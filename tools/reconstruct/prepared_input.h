@@ -16,13 +16,6 @@ constexpr const char* DEGREES = "x and y seem to be degrees of longitude and lat
 void
 checkMemory (const CommandLine& line, std::size_t points, double kept_per_point = KEPT_PER_POINT);
 
-/// How the command line wants the input read: all digits of a text count if it is shifted.
-inline ReadOptions
-readOptionsOf (const CommandLine& line)
-{
-  return {line.auto_shift || line.shift, line.columns, line.classes};
-}
-
 /// Makes the input of the core of a cloud: the positions of the points that are not left out, normals
 /// if the command line uses them, and its origin where that asks for it, or where floats are too
 /// coarse; the viewpoint of the line is moved as well. Warns of degrees beside metres. All other

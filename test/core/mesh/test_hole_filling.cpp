@@ -186,24 +186,11 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
 {
   // A fan at the boundary point 0, whose second triangle is folded against the third one, so that
   // one triangle is not enough. Points 2 to 4 are inside.
-  const Mesh fan{{{0, 0, 0},
-                  {-1.3, -0.4, 2.1},
-                  {-1.2, 0.2, 0.3},
-                  {0.1, 0.7, 0.1},
-                  {-2.2, -0.1, 0.3},
-                  {-1, -0.5, 1.1},
-                  {-3.5, 0.4, 0.8},
-                  {-1.1, 0.6, 0.2}},
-                 {{0, 1, 2},
-                  {0, 2, 3},
-                  {0, 3, 4},
-                  {0, 4, 5},
-                  {2, 1, 7},
-                  {3, 2, 7},
-                  {4, 3, 6},
-                  {5, 4, 6},
-                  {3, 7, 6}}};
-  for (const Mesh& mesh : {foldedStrip (), fan}) {
+  const Positions places{{0, 0, 0},         {-1.3, -0.4, 2.1}, {-1.2, 0.2, 0.3}, {0.1, 0.7, 0.1},
+                         {-2.2, -0.1, 0.3}, {-1, -0.5, 1.1},   {-3.5, 0.4, 0.8}, {-1.1, 0.6, 0.2}};
+  const Triangles fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {2, 1, 7},
+                      {3, 2, 7}, {4, 3, 6}, {5, 4, 6}, {3, 7, 6}};
+  for (const Mesh& mesh : {foldedStrip (), Mesh{places, fan}}) {
     TriangleMesh changed = connected (mesh);
     ASSERT_GT (findFolds (changed, mesh.positions, 1).size (), 0U);
     // All folds end, no point is lost, and one boundary loop is left.
