@@ -218,6 +218,21 @@ unordered (const std::vector<Triangle>& triangles)
   return sorted;
 }
 
+inline double
+areaOf (const Triangle& t, const Positions& positions)
+{
+  return 0.5 * areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).norm ();
+}
+
+inline double
+areaOf (const std::vector<Triangle>& triangles, const Positions& positions)
+{
+  double area = 0.0;
+  for (const Triangle& t : triangles)
+    area += areaOf (t, positions);
+  return area;
+}
+
 /// Input of the core without indices.
 inline Input
 asInput (const Positions& positions, NeighborSearch* search = nullptr)

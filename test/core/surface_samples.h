@@ -356,8 +356,7 @@ withNoise (KnownSurface surface, double standard_deviation, std::uint64_t seed)
   surface.clean = surface.points;
   RandomStream random (seed);
   for (Eigen::Vector3d& p : surface.points)
-    for (double& coordinate : p)
-      coordinate += standard_deviation * random.normal ();
+    p += standard_deviation * normalVector (random);
   surface.area = 0.0;
   return surface;
 }
@@ -372,10 +371,8 @@ withOutliers (KnownSurface surface, std::size_t count, double distance, std::uin
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant (2.0 * distance);
   RandomStream random (seed);
   while (surface.outliers.size () < count) {
-    Eigen::Vector3d p;
-    for (double& coordinate : p)
-      coordinate = random.uniform ();
-    p = box.min () - margin + (box.sizes () + 2.0 * margin).cwiseProduct (p);
+    const Eigen::Vector3d p =
+        box.min () - margin + (box.sizes () + 2.0 * margin).cwiseProduct (uniformVector (random));
     if (std::any_of (surface.points.begin (), surface.points.end (),
                      [&] (const Eigen::Vector3d& q) { return (q - p).norm () < distance; }))
       continue;

@@ -89,15 +89,13 @@ std::pair<double, double>
 meanEdgeAndArea (const std::vector<Triangle>& triangles, const Positions& points)
 {
   const std::vector<float> spacing = localSpacing (points, nearestOf (points, 6), 1);
-  double lengths = 0.0, area = 0.0;
-  for (const Triangle& t : triangles) {
-    area += 0.5 * areaVector (points[t[0]], points[t[1]], points[t[2]]).norm ();
+  double lengths = 0.0;
+  for (const Triangle& t : triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = t[i], b = t[(i + 1) % 3];
       lengths += 2.0 * (points[a] - points[b]).norm () / (spacing[a] + spacing[b]);
     }
-  }
-  return {lengths / (3.0 * static_cast<double> (triangles.size ())), area};
+  return {lengths / (3.0 * static_cast<double> (triangles.size ())), areaOf (triangles, points)};
 }
 
 void

@@ -52,9 +52,7 @@ TEST (Reconstruct, KnownDiscs)
     expectDisc (result, cloud.size ());
     EXPECT_EQ (result.report.statistics.folds, 0U);
     // One point for each unit of area; of rolling terrain, in plan view.
-    double area = 0.0;
-    for (const Triangle& t : result.triangles)
-      area += 0.5 * (cloud[t[1]] - cloud[t[0]]).cross (cloud[t[2]] - cloud[t[0]]).norm ();
+    const double area = areaOf (result.triangles, cloud);
     EXPECT_GT (area / 3000.0, 0.95);
     EXPECT_LT (area / 3000.0, kind == SurfaceKind::HEIGHT_FIELD ? 1.2 : 1.02);
   }

@@ -97,21 +97,6 @@ expectDisc (const TriangleMesh& mesh, std::size_t vertices)
   return topology.loops.empty () ? std::vector<Index> () : topology.loops.front ();
 }
 
-inline double
-areaOf (const Triangle& t, const Positions& positions)
-{
-  return 0.5 * areaVector (positions[t[0]], positions[t[1]], positions[t[2]]).norm ();
-}
-
-inline double
-areaOf (const Triangles& triangles, const Positions& positions)
-{
-  double area = 0.0;
-  for (const Triangle& t : triangles)
-    area += areaOf (t, positions);
-  return area;
-}
-
 /// A grid of cells, each cut in two; vertex (x, y) is `index (x, y)` at `place (x, y)`.
 inline Mesh
 grid (Index columns, Index rows, std::size_t points,
