@@ -13,11 +13,10 @@ namespace pcl::floater::samples {
 /// How a sensor spaces its rays.
 enum class Raster
 {
-  CAMERA,   ///< pixels of a plane
-  RINGS,    ///< cones around the upright, 6 times as far apart as the rays in each
-  SPHERE,   ///< all angles alike, all around but the lowest 40 degrees
-  PARALLEL, ///< parallel rays
-  LINES     ///< parallel rays along lines, 5 times as far apart as the rays in each
+  CAMERA, ///< pixels of a plane
+  RINGS,  ///< cones around the upright, 6 times as far apart as the rays in each
+  SPHERE, ///< all angles alike, all around but the lowest 40 degrees
+  LINES   ///< parallel rays along lines, 5 times as far apart as the rays in each
 };
 
 struct Scan
@@ -143,7 +142,7 @@ raysOf (Raster raster, const Eigen::Vector3d& place, const Eigen::Vector3d& look
             {place, (look + 0.006 * ((i - 84.5) * right + (j - 59.5) * up)).normalized ()});
   else
     for (int i = 0; i < 180; ++i)
-      for (int j = 0; j < 110; j += raster == Raster::LINES ? 5 : 1)
+      for (int j = 0; j < 110; j += 5)
         rays.push_back ({place + 0.02 * ((i - 89.5) * right + (j - 54.5) * up), look});
   return rays;
 }
@@ -165,7 +164,7 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
   const Vector3d target (3.8 + 0.4 * random.uniform (), 3.8 + 0.4 * random.uniform (), 0.6);
   const Vector3d look = (target - place).normalized ();
   Scan scan = castRays (room, raysOf (raster, place, look), noise, random);
-  scan.is_far = raster == Raster::PARALLEL || raster == Raster::LINES;
+  scan.is_far = raster == Raster::LINES;
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond (random.normal (), random.normal (), random.normal (), random.normal ())
           .normalized ();

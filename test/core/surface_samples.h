@@ -27,14 +27,6 @@ struct KnownSurface
   std::vector<Index> outliers; ///< points off the surface, ascending
 };
 
-/// Euler characteristic that a mesh of all points has.
-inline long
-eulerOf (const KnownSurface& surface)
-{
-  return 2 * static_cast<long> (surface.components) - 2 * static_cast<long> (surface.handles) -
-         static_cast<long> (surface.loops);
-}
-
 inline KnownSurface
 generated (const SurfaceSpec& spec)
 {
