@@ -158,36 +158,27 @@ copyRows (const py::buffer_info& info)
 struct ResultArray
 {
   std::shared_ptr<const void> owner;
-  const void* first;
-  py::ssize_t element; ///< bytes
-  std::string format;  ///< of the elements
-  std::vector<py::ssize_t> shape, strides;
+  py::buffer_info view;
 };
-
-py::buffer_info
-bufferOf (const ResultArray& array)
-{
-  static double none = 0.0; // an empty array has an address, too
-  // The arrays are the user's, who may change them. The report in C++ is not read again.
-  void* first = array.shape[0] > 0 ? const_cast<void*> (array.first) : &none;
-  return {first,       array.element, array.format, static_cast<py::ssize_t> (array.shape.size ()),
-          array.shape, array.strides};
-}
 
 template <typename T>
 ResultArray
 arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
 {
+  static double none = 0.0; // an empty array has an address, too
+  // The arrays are the user's, who may change them. The report in C++ is not read again.
+  void* const first =
+      values.empty () ? static_cast<void*> (&none) : const_cast<T*> (values.data ());
   const auto rows = static_cast<py::ssize_t> (values.size ());
   constexpr py::ssize_t ROW = sizeof (T);
   if constexpr (std::is_arithmetic_v<T>)
-    return {owner, values.data (), ROW, "i", {rows}, {ROW}};
+    return {owner, {first, ROW, "i", 1, {rows}, {ROW}}};
   else {
     using Given = typename T::value_type; // indices are unsigned
     using Number = std::conditional_t<std::is_same_v<Given, std::uint32_t>, std::int32_t, Given>;
     constexpr py::ssize_t ELEMENT = sizeof (Number);
     const std::string format = py::format_descriptor<Number>::format ();
-    return {owner, values.data (), ELEMENT, format, {rows, ROW / ELEMENT}, {ROW, ELEMENT}};
+    return {owner, {first, ELEMENT, format, 2, {rows, ROW / ELEMENT}, {ROW, ELEMENT}}};
   }
 }
 
@@ -342,7 +333,11 @@ PYBIND11_MODULE (_core, module)
   using namespace pcl::floater;
   module.doc () = "The compiled part of pcl_floater.";
   module.attr ("__version__") = PCL_FLOATER_VERSION;
-  py::class_<ResultArray> (module, "ResultArray", py::buffer_protocol ()).def_buffer (&bufferOf);
+  py::class_<ResultArray> (module, "ResultArray", py::buffer_protocol ())
+      .def_buffer ([] (const ResultArray& array) {
+        const py::buffer_info& v = array.view;
+        return py::buffer_info (v.ptr, v.itemsize, v.format, v.ndim, v.shape, v.strides);
+      });
   module.def ("run", &run);
   module.def ("options", [] { return toPython (optionTableJson ()); });
   module.def ("vertex_normals", &normalsOf);
