@@ -39,8 +39,10 @@ public:
       box_.extend (position);
     evidence_.hidden_share *= evidence_.density_regularity / limits.density_regularity;
     evidence_.density_regularity = limits.density_regularity;
-    if (!may_be_far) // with evidence of its own, see isDetermined ()
-      evidence_.regularity *= limits.late.regularity;
+    lenient_ = evidence_;
+    lenient_.regularity *= limits.late.regularity;
+    if (!may_be_far)
+      evidence_ = lenient_;
     coarse_ = evidence_;
     coarse_.patches = std::min (coarse_.patches, limits.coarse_patches);
     constexpr std::size_t EVERY = 4;
@@ -81,7 +83,7 @@ public:
     for (const RatedViewpoint& start : keepApart (candidates, APART, limits_.by_rows))
       if (takeBetter (refine (start.viewpoint, step), best))
         break;
-    return best ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
+    return best && best->is_certain ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
   }
 
   std::optional<Viewpoint> find () const
@@ -126,13 +128,12 @@ public:
     candidates.resize (std::min (candidates.size (), limits_.by_rays));
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
-      if (!takeBetter (refine (candidate.viewpoint), found) && !candidate.viewpoint.is_far &&
-          may_be_far_) {
+      const bool ends = takeBetter (refine (candidate.viewpoint), found);
+      if (!ends && !candidate.viewpoint.is_far && may_be_far_ && (!found || found->is_certain))
         takeBetter (refine (mirrored (candidate.viewpoint)), found);
-        if (!found)
-          takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
-      }
-      if (found && isDetermined (found->viewpoint))
+      if (!found && !candidate.viewpoint.is_far && may_be_far_)
+        takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
+      if (found && isDetermined (*found))
         return found->viewpoint;
     }
     return {};
@@ -151,7 +152,9 @@ private:
   {
     double cost; // spread of the rays and rows
     Viewpoint viewpoint;
-    bool is_even; // the rays are evenly spaced; else it explains the density
+    bool is_even;    // the rays are evenly spaced
+    bool explains;   // the density of the points; tried if the rays are not clearly even
+    bool is_certain; // either is clear, and the cloud is not evenly sampled
   };
 
   // Accepts a viewpoint with more even rays. Returns whether they are even enough to end the
@@ -163,14 +166,17 @@ private:
     return found && found->cost < EVEN;
   }
 
-  // Whether the cloud is seen from this place: it is no closed body around it, and if it is evenly
-  // sampled, it is not as even from far away on this side, such as a raster of heights.
-  bool isDetermined (const Viewpoint& found) const
+  // Whether the cloud is seen from this place. Points that are even to all sides may be a closed body.
+  // A cloud that is sampled evenly must be less even from far away on this side, unlike a raster of
+  // heights.
+  bool isDetermined (const Found& found) const
   {
-    if (!found.is_far && looksToAllSides (positions_, found, evidence_))
+    const Viewpoint& place = found.viewpoint;
+    if (!found.explains && !place.is_far && looksToAllSides (positions_, place, evidence_))
       return false;
-    return may_be_far_ || (!found.is_far && evidenceAt (found).ray_spread <
-                                                FARTHER * evidenceAt (farFrom (found)).ray_spread);
+    return found.is_certain ||
+           (!place.is_far &&
+            evidenceAt (place).ray_spread < FARTHER * evidenceAt (farFrom (place)).ray_spread);
   }
 
   // The direction of rays from far beyond a place.
@@ -348,20 +354,24 @@ private:
         return {};
     }
     patches = findPatches (evidence_);
-    const bool is_even = isSeenFromThere (
-        findRayEvidence (positions_, patches, viewpoint, evidence_, run_), evidence_);
+    const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
+    const bool is_sure = isSeenFromThere (rays, evidence_);
     // Along a far direction, nothing is beside.
-    if (!is_even &&
-        (viewpoint.is_far || !explainsDensity (positions_, patches, viewpoint, evidence_, run_)))
+    const bool explains = !is_sure && !viewpoint.is_far &&
+                          explainsDensity (positions_, patches, viewpoint, evidence_, run_);
+    const bool is_even = is_sure || (!viewpoint.is_far && isSeenFromThere (rays, lenient_));
+    if (!is_even && !explains)
       return {};
-    return Found{findRaySpread (positions_, patches, viewpoint, true, run_), viewpoint, is_even};
+    return Found{findRaySpread (positions_, patches, viewpoint, true, run_), viewpoint, is_even,
+                 explains, may_be_far_ && (is_sure || explains)};
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
   const CsrLists& neighbors_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
-  EvidenceLimits coarse_; // fewer patches, during the search
+  EvidenceLimits coarse_;  // fewer patches, during the search
+  EvidenceLimits lenient_; // with evidence of its own, see isDetermined ()
   RunContext run_;
   const std::vector<AreaSample>& samples_;
   std::vector<AreaSample> few_samples_; // to compare many viewpoints
@@ -391,7 +401,7 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   }
   constexpr std::size_t LEAST_SHARE = 4; // a quarter of the patches
   if (LEAST_SHARE * filled.patches < evidence.patches || !search.hasSamples () ||
-      (for_uneven && spreadOfAreas (samples) <= limits.even))
+      (spreadOfAreas (samples) > limits.even) != for_uneven)
     return {};
   return search.find ();
 }
