@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/area_samples.h"
 
+#include "core/geometry.h"
 #include "core/order_statistics.h"
 
 #include <Eigen/Geometry>

@@ -3,7 +3,7 @@
 // Patches around some points, and their areas, which a scanner sees under the same solid angle.
 #pragma once
 
-#include "local/local_geometry.h"
+#include "core/csr_lists.h"
 #include "view/ray_evidence.h"
 
 #include <vector>
