@@ -136,7 +136,7 @@ public:
           takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
       }
       if (found && isDetermined (*found))
-        return found->viewpoint;
+        return isAsFar (found->viewpoint) ? farFrom (found->viewpoint) : found->viewpoint;
     }
     return {};
   }
@@ -181,6 +181,13 @@ private:
     return found.is_certain ||
            (!place.is_far &&
             evidenceAt (place).ray_spread < FARTHER * evidenceAt (farFrom (place)).ray_spread);
+  }
+
+  // Whether rays from there are as even as parallel ones: within the cloud, whose diagonal is 1, their
+  // spacing changes by less than the spread that counts as even. Such a place may be on the wrong side.
+  bool isAsFar (const Viewpoint& found) const
+  {
+    return !found.is_far && (found.place - box_.center ()).norm () * EVEN > 1.0;
   }
 
   // The direction of rays from far beyond a place.
