@@ -185,19 +185,41 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   return problem;
 }
 
+// The longest boundary loop of the surface that the stars make.
+Boundary
+loopOfSurface (const Points& points, LocalGeometry geometry, const Request& request)
+{
+  const RunContext run = request.run.withinStage ();
+  SurfaceSettings settings;
+  settings.holes.policy = HolePolicy::KEEP_LARGEST;
+  settings.limits = request.limits.surface;
+  Boundary boundary;
+  double longest = 0.0;
+  for (std::vector<Index>& loop :
+       boundaryLoops (makeSurface (points, geometry, settings, run).mesh, run)) {
+    boundary.candidates += loop.size ();
+    const double length = perimeter (points.positions, loop);
+    if (length > longest) {
+      longest = length;
+      boundary.loop = std::move (loop);
+    }
+  }
+  return boundary;
+}
+
 // TW 385, section 3: boundary points as one ordered loop.
 Boundary
 findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
   const BoundaryOptions& options = request.options.disc.boundary;
-  const Limits& limits = request.limits;
+  const LoopLimits& limits = request.limits.loop;
   request.run.beginStage (Stage::BOUNDARY);
   const bool is_given = !options.loop.empty ();
-  Boundary boundary =
-      is_given || options.method != BoundaryMethod::CONSENSUS
-          ? findBoundary (points, geometry, options, request.run, limits.loop)
-          : consensusLoop (points.workingPositions (), geometry, request.run, limits.surface);
-  checkBoundary (points, geometry.spacing, is_given, boundary, limits.loop);
+  Boundary boundary = is_given ? givenLoop (points, options.loop)
+                      : options.method == BoundaryMethod::TWO_SEGMENTS
+                          ? publishedLoop (points, geometry, options, request.run, limits)
+                          : loopOfSurface (points, geometry, request);
+  checkBoundary (points, geometry.spacing, is_given, boundary, limits);
   return boundary;
 }
 

@@ -5,7 +5,6 @@
 #include "consensus/consensus.h"
 #include "consensus/orientation.h"
 #include "core/order_statistics.h"
-#include "floater/boundary/boundary.h"
 
 #include <algorithm>
 #include <utility>
@@ -49,45 +48,6 @@ makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists
   return made;
 }
 
-} // namespace
-
-Boundary
-consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-               const RunContext& run, const SurfaceLimits& limits)
-{
-  const ConsensusMesh consensus = makeConsensusMesh (positions, geometry.neighbors, geometry.stars,
-                                                     geometry.spacing, limits.consensus, run);
-  const MeshComponents components = findComponents (consensus.mesh, run);
-  const std::vector<std::size_t> component_points = countPoints (consensus.mesh, components);
-  std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (consensus.mesh, components, positions, geometry.spacing, run);
-  HoleOptions keep_largest;
-  keep_largest.policy = HolePolicy::KEEP_LARGEST;
-  judgeLoops (consensus.mesh, loops, positions, geometry.neighbors, consensus.normals,
-              limits.open_loops, run);
-  chooseOpenLoops (loops, components.count, keep_largest, 1.0);
-
-  // Beyond a ragged boundary there are points with gaps in their stars.
-  std::vector<Index> candidates;
-  for (const Gap& gap :
-       findGaps (geometry.stars, geometry.spacing, limits.consensus.gap_ratio, run))
-    candidates.push_back (gap.point);
-  Boundary boundary;
-  const auto largest = std::max_element (component_points.begin (), component_points.end ());
-  for (BoundaryLoop& loop : loops) {
-    candidates.insert (candidates.end (), loop.points.begin (), loop.points.end ());
-    if (loop.keep_open &&
-        loop.component == static_cast<Index> (largest - component_points.begin ()))
-      boundary.loop = std::move (loop.points);
-  }
-  sortUnique (candidates);
-  boundary.candidates = candidates.size ();
-  if (!boundary.loop.empty ())
-    refineLoop (positions, geometry.stars, geometry.spacing, candidates, boundary.loop, run);
-  return boundary;
-}
-
-namespace {
 // Decides which loops stay open, widens those by the automatic policy (see widenHoles), and fills the
 // others. O(n) plus judgeLoops () and fillHoles ().
 void

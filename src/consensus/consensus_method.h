@@ -4,7 +4,6 @@
 #pragma once
 
 #include "consensus/candidates.h"
-#include "floater/boundary/boundary.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
 #include "mesh/hole_filling.h"
@@ -25,11 +24,9 @@ struct ConsensusLimits
                                     ///< (see findOrientationSeam). Measured: scans of two-sided
                                     ///< surfaces had rows of up to 5, Moebius strips 4 spacings
                                     ///< wide rows of 8, and strips 12 spacings wide rows of 37
-  double gap_ratio = 2.0; ///< circumradius over local spacing above which a star triangle is a gap
-                          ///< (see findGaps). Chosen by hand; no measurement is recorded
 };
 
-/// The limits of all steps of makeSurface and consensusLoop.
+/// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {
   ConsensusLimits consensus;
@@ -39,21 +36,11 @@ struct SurfaceLimits
   FinishLimits finish;
 };
 
-/// Makes the consensus mesh and takes the loop of its largest component that
-/// HolePolicy::KEEP_LARGEST would keep open, the surface on the left. Then inserts points beside
-/// the loop that have a gap in their star (see refineLoop): a ragged boundary has points that no
-/// triangle connects to the rest. O(n log n).
-/// \param positions by which the geometry was made
-/// \return the loop; its candidates are the points with gaps and on any loop
-Boundary
-consensusLoop (const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-               const RunContext& run, const SurfaceLimits& limits = {});
-
 struct SurfaceSettings
 {
   HoleOptions holes = {};
   bool flip_edges = true;
-  bool repair = true; ///< repair flaws, and make zones anew where several sheets are near
+  bool repair = false; ///< repair flaws, and make zones anew where several sheets are near
   SurfaceLimits limits = {};
   FacingHints facing = {};
 };

@@ -34,10 +34,8 @@ constexpr Choices<Facing, 6> FACING_CHOICES{{{"auto", Facing::AUTO},
                                              {"inwards", Facing::INWARDS}}};
 constexpr Choices<ScatterPolicy, 3> SCATTER_CHOICES{
     {{"auto", ScatterPolicy::AUTO}, {"keep", ScatterPolicy::KEEP}, {"drop", ScatterPolicy::DROP}}};
-constexpr Choices<BoundaryMethod, 3> BOUNDARY_CHOICES{
-    {{"spanning-tree", BoundaryMethod::SPANNING_TREE},
-     {"consensus", BoundaryMethod::CONSENSUS},
-     {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
+constexpr Choices<BoundaryMethod, 2> BOUNDARY_CHOICES{
+    {{"consensus", BoundaryMethod::CONSENSUS}, {"two-segments", BoundaryMethod::TWO_SEGMENTS}}};
 constexpr Choices<Neighborhood, 4> NEIGHBORHOOD_CHOICES{
     {{"nearest-delaunay", Neighborhood::NEAREST_DELAUNAY},
      {"nearest", Neighborhood::NEAREST},
@@ -228,9 +226,8 @@ visitOptions (AnyOptions& options, Visitor&& visit)
                    "drop neighbours on another sheet of the surface"},
          options.filter_sheets);
   visit (OptionRow{"boundary", BOUNDARY, "boundary.method", UsedFor::LOOP,
-                   "how the boundary loop is found: in a spanning tree of the boundary points; as "
-                   "the largest boundary loop of the consensus of the stars; or as in TW 385, "
-                   "section 3 (two-segments)"},
+                   "how the boundary loop is found: as the longest one of the surface on which the "
+                   "stars agree; or as in TW 385, section 3 (two-segments)"},
          disc.boundary.method, BOUNDARY_CHOICES);
   visit (OptionRow{"opening_angle", BOUNDARY, "boundary.opening_angle", UsedFor::TWO_SEGMENTS,
                    "two-segments: degrees; a boundary point has a wider sector without neighbours"},

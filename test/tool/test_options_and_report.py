@@ -128,8 +128,8 @@ def test_the_method_of_the_report_and_options_without_effect(cloud):
     assert [options[key] for key in ("method", "topology", "boundary")] == ["tw385", "disc", "two-segments"]
     assert "no effect" not in str(made["warnings"])
     # What is given stays.
-    other = cloud.report("--method tw385 --boundary spanning-tree --scatter drop --flips on")
-    assert other["options"]["boundary"] == "spanning-tree"
+    other = cloud.report("--method tw385 --boundary consensus --scatter drop --flips on")
+    assert other["options"]["boundary"] == "consensus"
     assert "options have no effect: --scatter, --flips; --method tw385" in str(other["warnings"])
     assert "warning: an option has no effect: solver" in cloud.succeed(
         "in.pcd out.ply --topology surface --solver gauss-seidel").err

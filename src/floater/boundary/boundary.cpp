@@ -10,63 +10,8 @@
 #include <unordered_map>
 
 namespace pcl::floater {
-std::vector<Gap>
-findGaps (const Stars& stars, const std::vector<float>& spacing, double circumradius_ratio,
-          const RunContext& run)
-{
-  // Of the triangle of a star's centre and two neighbours.
-  const auto radius = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return circumradius (Eigen::Vector3d::Zero (), {a.x (), a.y (), 0.0}, {b.x (), b.y (), 0.0});
-  };
-  ProgressLoop progress (run, stars.neighbors.rows ());
-  std::vector<Gap> gaps;
-  std::vector<std::uint8_t>
-      missing; // per sector of a star: sector i goes from neighbour i to the next
-  for (Index p = 0; p < stars.neighbors.rows (); ++p) {
-    progress.next ();
-    const Row star = stars.neighbors.row (p);
-    const Eigen::Vector2d* offsets = stars.offsets_in_plane.data () + stars.neighbors.offsets[p];
-    const std::size_t count = star.size ();
-    if (count == 0)
-      continue;
-    missing.assign (count, 0);
-    std::size_t present = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t j = (i + 1) % count;
-      const double mean_spacing = (spacing[p] + spacing[star[i]] + spacing[star[j]]) / 3.0;
-      const bool has_no_triangle = stars.open[p] != 0 && i + 1 == count;
-      missing[i] =
-          has_no_triangle || radius (offsets[i], offsets[j]) > circumradius_ratio * mean_spacing
-              ? 1
-              : 0;
-      present += missing[i] == 0 ? 1 : 0;
-    }
-    if (present == count)
-      continue;
-    if (present == 0) {
-      std::size_t nearest = 0;
-      for (std::size_t i = 1; i < count; ++i)
-        if (offsets[i].squaredNorm () < offsets[nearest].squaredNorm ())
-          nearest = i;
-      gaps.push_back ({p, star[nearest], star[nearest]});
-      continue;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (missing[i] == 0 || missing[(i + count - 1) % count] != 0)
-        continue;
-      std::size_t end = i;
-      while (missing[end % count] != 0)
-        ++end;
-      gaps.push_back ({p, star[i], star[end % count]});
-    }
-  }
-  return gaps;
-}
-
-namespace {
-// The user's loop, given in cloud indices. Duplicates are replaced by their representatives.
 Boundary
-fromUser (const Points& points, const std::vector<Index>& user_loop)
+givenLoop (const Points& points, const std::vector<Index>& loop)
 {
   Boundary boundary;
   const auto invalid = [&] (const std::string& why) {
@@ -81,7 +26,7 @@ fromUser (const Points& points, const std::vector<Index>& user_loop)
     if (const auto at = point_of.find (kept); at != point_of.end ())
       point_of.emplace (duplicate, at->second);
   std::vector<std::uint8_t> seen (points.positions.size (), 0);
-  for (const Index cloud_index : user_loop) {
+  for (const Index cloud_index : loop) {
     const auto at = point_of.find (cloud_index);
     const Index p = at != point_of.end () ? at->second : NONE;
     if (p == NONE)
@@ -98,6 +43,7 @@ fromUser (const Points& points, const std::vector<Index>& user_loop)
   return boundary;
 }
 
+namespace {
 // Points whose widest sector without a neighbour exceeds the opening angle, ascending. Neighbours
 // are projected on the tangent plane of the point. O(n k log k).
 // \param opening_angle in radians
@@ -126,8 +72,28 @@ openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   return points;
 }
 
+// Sets the largest step of the loop, and the point where it begins.
+void
+measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+              Boundary& boundary)
+{
+  boundary.largest_step = 0.0;
+  boundary.longest_from = NONE;
+  for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
+    const Index p = boundary.loop[i];
+    const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
+    const double step = (positions[p] - positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
+    if (step > boundary.largest_step) {
+      boundary.largest_step = step;
+      boundary.longest_from = p;
+    }
+  }
+}
+
+} // namespace
+
 Boundary
-byTwoSegments (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
+publishedLoop (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
                const RunContext& run, LoopLimits limits)
 {
   limits.largest_k = std::max (limits.largest_k, static_cast<Index> (options.cluster_k));
@@ -141,20 +107,6 @@ byTwoSegments (const Points& points, const LocalGeometry& geometry, const Bounda
   if (!clusters.empty ())
     boundary.loop = twoSegmentLoop (positions, clusters.front (), run, limits);
   return boundary;
-}
-
-} // namespace
-
-Boundary
-findBoundary (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-              const RunContext& run, const LoopLimits& limits)
-{
-  if (!options.loop.empty ())
-    return fromUser (points, options.loop);
-  if (options.method == BoundaryMethod::TWO_SEGMENTS)
-    return byTwoSegments (points, geometry, options, run, limits);
-  return spanningTreeLoop (points.workingPositions (), geometry.stars, geometry.spacing, run,
-                           limits);
 }
 
 void
@@ -175,23 +127,6 @@ checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_
             "loop"};
   }
   measureSteps (points.workingPositions (), spacing, boundary);
-}
-
-void
-measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-              Boundary& boundary)
-{
-  boundary.largest_step = 0.0;
-  boundary.longest_from = NONE;
-  for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
-    const Index p = boundary.loop[i];
-    const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
-    const double step = (positions[p] - positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
-    if (step > boundary.largest_step) {
-      boundary.largest_step = step;
-      boundary.longest_from = p;
-    }
-  }
 }
 
 } // namespace pcl::floater

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The boundary stage (TW 385, section 3): gaps of stars, clusters of boundary points, both
-// finders of loops, and the stage as a whole.
+// The boundary stage (TW 385, section 3): clusters of boundary points, both finders of loops.
 #include "floater/boundary/boundary.h"
 
-#include "consensus/consensus_method.h"
 #include "options/option_rows.h"
 #include "samples.h"
 
@@ -16,66 +14,6 @@ namespace pcl::floater {
 namespace {
 using namespace samples;
 using Clusters = std::vector<std::vector<Index>>;
-using Gaps = std::vector<std::array<Index, 3>>;
-
-// One star: point 0 with neighbours 1, 2, and so on. The neighbours have no stars.
-Stars
-starOf (const std::vector<Eigen::Vector2d>& offsets, bool open)
-{
-  Stars stars;
-  const auto count = static_cast<Index> (offsets.size ());
-  stars.neighbors.offsets.assign (count + 2, count);
-  stars.neighbors.offsets[0] = 0;
-  for (Index i = 1; i <= count; ++i)
-    stars.neighbors.ids.push_back (i);
-  stars.offsets_in_plane = offsets;
-  stars.open.assign (count + 1, 0);
-  stars.open[0] = open ? 1 : 0;
-  return stars;
-}
-
-TEST (Gaps, AreRunsOfMissingTrianglesOfAStar)
-{
-  struct Case
-  {
-    const char* name;
-    double ratio; ///< of the circumradius
-    bool open;
-    std::vector<Eigen::Vector2d> offsets;
-    Gaps gaps; ///< point, first, last
-  };
-  const std::vector<Eigen::Vector2d> long_arm{{1, 0}, {0, 1}, {-3, 0}, {0, -1}};
-  const std::vector<Eigen::Vector2d> touching{{1, -0.5}, {1, 0.5}, {-1, 0.5}, {-1, -0.5}};
-  const std::vector<Case> cases{
-      {"small triangles", 1.5, false, {{1, 0}, {0, 1}, {-1, 0}, {0, -1}}, {}},
-      {"from the last to the first", 1.5, true, {{1, 0}, {0, 1}, {-1, 0}}, {{0, 3, 1}}},
-      {"one triangle", 1.5, true, {{1, 0}, {0, 1}}, {{0, 2, 1}}},
-      // Right angles at the centre: the circumradius is half of the opposite side, sqrt (1 + 9) / 2
-      // = 1.58, on both sides of the long neighbour.
-      {"two wide triangles", 1.55, false, long_arm, {{0, 2, 4}}},
-      {"not wide enough", 1.6, false, long_arm, {}},
-      {"one wide", 2.0, false, {{1, 0}, {0, 1}, {-3, 0}, {-1.5, -0.5}, {0, -1}}, {{0, 3, 4}}},
-      {"over the end", 2.0, false, {{5, 0}, {0, 1}, {-1, 0}, {0, -1}, {4, -4}}, {{0, 4, 2}}},
-      {"with the open sector", 2.0, true, {{5, 0}, {0.5, 1}, {-1, 0.5}, {-5, 0}}, {{0, 3, 2}}},
-      // The triangles above and below have a circumradius of 1.25, the other two one of 0.625.
-      {"two where sheets touch", 1.0, false, touching, {{0, 2, 3}, {0, 4, 1}}},
-      {"no triangle: the nearest neighbour", 1.5, true, {{2, 0}}, {{0, 1, 1}}},
-      {"all too wide", 1.5, false, {{9, 0}, {0, 8}, {-9, -1}}, {{0, 2, 2}}},
-      {"no neighbours", 1.5, true, {}, {}},
-      {"opposite neighbours make no triangle", 1.5, true, {{1, 0}, {-1, 0}}, {{0, 1, 1}}}};
-  for (const Case& one : cases) {
-    SCOPED_TRACE (one.name);
-    const Stars stars = starOf (one.offsets, one.open);
-    Gaps found;
-    const std::vector<float> spacing (stars.open.size (), 1.0F);
-    for (const Gap& gap : findGaps (stars, spacing, one.ratio, 1))
-      found.push_back ({gap.point, gap.first, gap.last});
-    EXPECT_EQ (found, one.gaps);
-  }
-  // The spacing of all three corners counts.
-  EXPECT_TRUE (
-      findGaps (starOf (long_arm, false), {1.0F, 1.0F, 1.0F, 2.0F, 1.0F}, 1.55, 1).empty ());
-}
 
 // Points of a line, with gaps of 4, 3 and 4 steps (exact in binary); the last point is alone.
 TEST (Clusters, OfALineDependOnTheToleranceAndOnTheNumberOfNeighbors)
@@ -102,23 +40,12 @@ TEST (Clusters, OfALineDependOnTheToleranceAndOnTheNumberOfNeighbors)
   EXPECT_TRUE (clusters (1.0, 4, {}).empty ());
 }
 
-// As points of the cloud.
-std::vector<Index>
-inCloud (const Neighborhoods& made, std::vector<Index> loop)
+Report
+discOf (const Positions& positions, BoundaryMethod method = BoundaryMethod::CONSENSUS)
 {
-  for (Index& p : loop)
-    p = made.points.cloud_index[p];
-  return loop;
-}
-
-std::vector<Index>
-loopOf (const Positions& positions)
-{
-  const Neighborhoods made = makeNeighborhoods (positions);
-  const Boundary boundary =
-      spanningTreeLoop (made.points.positions, made.geometry.stars, made.geometry.spacing, 1);
-  EXPECT_FALSE (boundary.problem);
-  return inCloud (made, boundary.loop);
+  Options options = discOptions ();
+  options.disc.boundary.method = method;
+  return reconstruct (asInput (positions), options).report;
 }
 
 Eigen::Vector3d
@@ -127,13 +54,12 @@ onCircle (double angle)
   return {std::cos (angle), std::sin (angle), 0.0};
 }
 
-TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
+TEST (LoopOfSurface, IsTheOuterBorderOfASheet)
 {
   struct Case
   {
     const char* name;
     std::function<Sheet (std::uint64_t)> make;
-    double share; ///< least share of the border; below 1, it is open how corners are passed
   };
   const auto square = [] (double width, double height, double step, std::uint64_t seed,
                           double jitter = 0.3) {
@@ -141,42 +67,38 @@ TEST (SpanningTreeLoop, IsTheOuterBorderOfASheet)
                          step, jitter, seed);
   };
   const std::vector<Case> cases{
-      {"disc", [] (std::uint64_t seed) { return disc (0.06, seed); }, 1.0},
-      {"square", [&] (std::uint64_t seed) { return square (1.0, 1.0, 0.04, seed); }, 1.0},
-      {"lattice", [&] (std::uint64_t seed) { return square (20.0, 20.0, 1.0, seed, 0.0); }, 1.0},
+      {"disc", [] (std::uint64_t seed) { return disc (0.06, seed); }},
+      {"square", [&] (std::uint64_t seed) { return square (1.0, 1.0, 0.04, seed); }},
+      {"lattice", [&] (std::uint64_t seed) { return square (20.0, 20.0, 1.0, seed, 0.0); }},
       {"annulus",
        [] (std::uint64_t seed) {
          return fillOutlines ({circle (1.0, 0.06), circle (0.5, 0.06)}, 0.06, 0.35, seed);
-       },
-       1.0},
+       }},
       {"star",
        [] (std::uint64_t seed) {
          Outline corners;
          for (int i = 0; i < 12; ++i)
            corners.emplace_back ((i % 2 == 0 ? 1.0 : 0.5) * onCircle (PI * i / 6.0).head<2> ());
          return fillOutlines ({resample (corners, 0.03)}, 0.03, 0.25, seed);
-       },
-       0.97},
+       }},
       // The spacing varies by a factor of e^3 = 20.
-      {"graded",
-       [&] (std::uint64_t seed) {
+      {"graded", [&] (std::uint64_t seed) {
          Sheet sheet = square (3.0, 4.0, 0.1, seed);
          for (Eigen::Vector3d& p : sheet.positions)
            p = std::exp (p.x ()) * onCircle (p.y ());
          return sheet;
-       },
-       0.98}};
+       }}};
   for (const Case& one : cases)
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       SCOPED_TRACE (one.name + std::to_string (seed));
       const Sheet sheet = one.make (seed);
-      const std::vector<Index> loop = canonicalCycle (loopOf (sheet.positions));
-      EXPECT_GE (static_cast<double> (loop.size ()),
-                 one.share * static_cast<double> (sheet.border));
-      // In order, each point once, and nothing but the border.
-      EXPECT_EQ (std::adjacent_find (loop.begin (), loop.end (), std::greater_equal<> ()),
-                 loop.end ());
-      EXPECT_TRUE (loop.empty () || loop.back () < sheet.border);
+      const std::vector<Index> loop = canonicalCycle (discOf (sheet.positions).loop);
+      // The border in order, and inner points only where triangles at it are obtuse.
+      std::vector<Index> border;
+      std::copy_if (loop.begin (), loop.end (), std::back_inserter (border),
+                    [&sheet] (Index p) { return p < sheet.border; });
+      EXPECT_EQ (border, indices (sheet.border));
+      EXPECT_LE (loop.size (), 1.05 * sheet.border);
     }
 }
 
@@ -258,40 +180,22 @@ TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
   }
 }
 
-Boundary
-find (const Neighborhoods& made, BoundaryMethod method)
-{
-  BoundaryOptions options;
-  options.method = method;
-  Boundary boundary = method == BoundaryMethod::CONSENSUS
-                          ? consensusLoop (made.points.positions, made.geometry, 1)
-                          : findBoundary (made.points, made.geometry, options, 1);
-  checkBoundary (made.points, made.geometry.spacing, false, boundary);
-  return boundary;
-}
-
 // A hole in the sheet is no border.
-TEST (Boundary, EveryMethodFindsTheBorderOfASheetAndNoneOfASphere)
+TEST (Boundary, EitherMethodFindsTheBorderOfASheetAndNoneOfASphere)
 {
   const Outline rim = circle (1.0, 0.06), hole = circle (0.4, 0.06);
-  const Neighborhoods closed = makeNeighborhoods (evenSphere (1500));
   for (const auto& [name, method] : BOUNDARY_CHOICES) {
     SCOPED_TRACE (name);
     for (const std::vector<Outline>& outlines :
          {std::vector<Outline>{rim}, std::vector<Outline>{rim, hole}}) {
       const Sheet sheet = fillOutlines (outlines, 0.06, 0.35, 6);
-      const Neighborhoods open = makeNeighborhoods (sheet.positions);
-      const Boundary boundary = find (open, method);
-      EXPECT_FALSE (boundary.problem);
-      EXPECT_EQ (canonicalCycle (inCloud (open, boundary.loop)), indices (sheet.border));
-      const bool all_count = method != BoundaryMethod::TWO_SEGMENTS; // and not one cluster
-      EXPECT_GE (boundary.candidates,
-                 sheet.border + (all_count && outlines.size () > 1 ? hole.size () : 0));
-      EXPECT_LT (boundary.largest_step, 2.0);
+      const Report report = discOf (sheet.positions, method);
+      EXPECT_EQ (canonicalCycle (report.loop), indices (sheet.border));
+      EXPECT_GE (report.statistics.boundary_candidates, sheet.border);
     }
-    const Boundary none = find (closed, method);
-    EXPECT_EQ (none.problem.status, RunStatus::NO_BOUNDARY);
-    EXPECT_FALSE (none.problem.message.empty ());
+    const Report none = discOf (evenSphere (1500), method);
+    EXPECT_EQ (none.status, RunStatus::NO_BOUNDARY);
+    EXPECT_FALSE (none.message.empty ());
     EXPECT_TRUE (none.loop.empty ());
   }
 }

@@ -91,7 +91,7 @@ def reconstruct(
     neighborhood: Literal["nearest-delaunay", "nearest", "ball-delaunay", "ball"] = "nearest-delaunay",
     ball_radius: float = 2.25,
     sheet_filter: bool = True,
-    boundary: Optional[Literal["spanning-tree", "consensus", "two-segments"]] = None,
+    boundary: Optional[Literal["consensus", "two-segments"]] = None,
     opening_angle: float = 160.0,
     cluster_tolerance: float = 0.05,
     cluster_neighbors: int = 10,

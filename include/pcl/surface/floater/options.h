@@ -55,9 +55,8 @@ enum class ScatterPolicy
 /// How the boundary loop of a disc is found.
 enum class BoundaryMethod
 {
-  SPANNING_TREE, ///< longest cycle that one edge closes in a spanning tree of the boundary points
-  CONSENSUS,     ///< largest boundary loop of the triangles on which neighbouring stars agree
-  TWO_SEGMENTS   ///< TW 385, section 3: largest cluster of boundary points, ordered in two segments
+  CONSENSUS,   ///< longest boundary loop of the surface on which neighbouring stars agree
+  TWO_SEGMENTS ///< TW 385, section 3: largest cluster of boundary points, ordered in two segments
 };
 
 /// Neighbours of a point in its convex combination (TW 385, section 2.1 and Figure 1(b)).
@@ -212,7 +211,7 @@ struct ViewOptions
 /// The boundary loop of a disc.
 struct BoundaryOptions
 {
-  BoundaryMethod method = BoundaryMethod::SPANNING_TREE; ///< how the loop is found
+  BoundaryMethod method = BoundaryMethod::CONSENSUS; ///< how the loop is found
   double opening_angle = 160.0; ///< TWO_SEGMENTS: degrees, above 0 and below 360; a boundary point
                                 ///< has a wider sector without neighbours
   double cluster_tolerance = 0.05; ///< TWO_SEGMENTS: distance over which clusters grow, as a
