@@ -227,12 +227,6 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   const std::vector<Eigen::Vector2d>& uv = disc.parameterization.uv;
   disc.mesh = triangulatePlane (uv, loop);
 
-  // Beyond TW 385: collapsed regions are laid out again, level by level.
-  if (!options.as_published)
-    disc.levels = layOutCollapsedRegions (disc.mesh, uv, positions, geometry.neighbors,
-                                          geometry.stars.normals, loop, star_settings, options, run,
-                                          settings.limits);
-
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
   // edges are flipped in space.
   run.beginStage (Stage::FLIPS);
@@ -250,8 +244,10 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
         std::to_string (disc.finish.folds) + " of " +
             std::to_string (disc.mesh.triangles.size () * 3 / 2) +
             " edges are folded: the surface is not one disc with one boundary (it may be closed, "
-            "have handles or several components, or be sampled too thinly); let the topology be "
-            "chosen automatically, or reconstruct a part of the surface"};
+            "have handles or several components, be sampled too thinly, or have a finger longer "
+            "than "
+            "35 of its radii); let the topology be chosen automatically, or reconstruct a part of "
+            "the surface"};
   return disc;
 }
 

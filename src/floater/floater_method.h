@@ -29,13 +29,6 @@ struct DiscLimits
   /// the least number that places it freely in the plane.
   std::size_t links_per_point = 3;
 
-  /// Scale of the parameterization (length in the plane over length in space) relative to that of
-  /// the loop, below which a triangle has collapsed. Neighbours among a million points are about
-  /// 1e-3 apart on the circle, and parameters are accurate to about 1e-13, so at this depth
-  /// positions are accurate to 1e-4 of their distance. No real cloud with a clean disc has such a
-  /// region; 1e-3 made one real cloud (nefertiti) worse.
-  double collapsed_scale = 1e-6;
-
   /// Share of all edges: if more are folded after the flips, the surface is no disc. On 24 clouds,
   /// discs had up to 0.01 and closed surfaces that were laid out as discs 0.04 or more.
   double largest_fold_share = 0.03;
@@ -89,24 +82,6 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
               const std::vector<Index>& loop, const DiscOptions& options, const RunContext& run,
               const DiscLimits& limits = {});
 
-/// Collapsed regions are laid out again.
-///
-/// On a tube of length L and radius R parameters shrink like exp (-L / R). From an L / R of about
-/// 35 on, points coincide in the plane. Here the loop of every collapsed region is laid on a circle
-/// of its own, the region is parameterized and triangulated alone, and its triangles are replaced.
-/// Regions that collapse within these follow recursively. One level covers an L / R of about 14. A
-/// region that cannot be parameterized stays. This goes beyond TW 385.
-///
-/// The mesh stays a disc with the same boundary. One pass over it if nothing has collapsed;
-/// otherwise each level costs as much as a reconstruction of its points.
-/// \return levels of the recursion; 0: no region was laid out again
-std::size_t
-layOutCollapsedRegions (TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& uv,
-                        const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest,
-                        const std::vector<Eigen::Vector3f>& normals, const std::vector<Index>& loop,
-                        const StarSettings& star_settings, const DiscOptions& options,
-                        const RunContext& run, const DiscLimits& limits = {});
-
 struct DiscSettings
 {
   const Options& options; ///< with as_published: nothing beyond TW 385
@@ -121,15 +96,16 @@ struct Disc
 {
   Boundary boundary;
   Parameterization parameterization;
-  std::size_t levels = 0; ///< of the recursion over collapsed regions; 0: there was none
   TriangleMesh mesh;
   MeshFinish finish;
   Problem problem;
 };
 
 /// Makes the mesh of a disc from its boundary loop (TW 385, sections 2 and 4). Beyond TW 385:
-/// collapsed regions are laid out again, edges are flipped in space, and folds are repaired. Stages
-/// WEIGHTS, SOLVE, DELAUNAY and FLIPS.
+/// edges are flipped in space, and folds are repaired. Stages WEIGHTS, SOLVE, DELAUNAY and FLIPS.
+///
+/// On a tube of length L and radius R parameters shrink like exp (-L / R). From an L / R of about 35
+/// on, points coincide in the plane; from some 50 on, folds are left.
 /// \param geometry its stars, which need their offsets, are consumed, except their normals
 /// \param boundary checked (see checkBoundary ())
 /// \return with the problem of the boundary or of the parameterization, or NOT_A_DISC if too many edges are folded

@@ -3,7 +3,7 @@
 // What is around the points of a chart, and the shapes of its triangles.
 #pragma once
 
-#include "floater/mesh_piece.h"
+#include "texture/mesh_piece.h"
 
 #include <array>
 #include <vector>

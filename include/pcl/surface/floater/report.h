@@ -252,7 +252,7 @@ struct Statistics
   std::size_t boundary_candidates = 0; ///< boundary points, before the loop is found
   std::size_t loop_points = 0;         ///< points of the boundary loop
   std::size_t triangles = 0;           ///< triangles of the mesh
-  std::size_t levels = 0;        ///< depth to which collapsed regions of a disc were laid out again
+
   std::size_t flips = 0;         ///< edges flipped in space
   std::size_t folds = 0;         ///< see MeshCheck::folds
   std::size_t necks_cut = 0;     ///< surface: necks between sheets that only come close

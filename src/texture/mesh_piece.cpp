@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "floater/mesh_piece.h"
+#include "texture/mesh_piece.h"
 
 #include "core/order_statistics.h"
 
