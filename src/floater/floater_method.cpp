@@ -12,28 +12,21 @@
 #include <utility>
 
 namespace pcl::floater {
-namespace {
-// The reversed lists: row q holds the points p, ascending, whose row holds q. Only entries for
-// which use (p, q) is true.
-template <typename Use>
-CsrLists
-reverse (const CsrLists& lists, Use&& use)
+std::vector<std::uint8_t>
+reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunContext& run)
 {
-  return makeCsrLists (lists.rows (), [&] (const auto& emit) {
-    for (std::size_t p = 0; p < lists.rows (); ++p)
-      for (const Index q : lists.row (p))
-        if (use (p, q))
-          emit (q, static_cast<Index> (p));
+  std::vector<std::uint8_t> reachable (neighbors.rows (), 0);
+  for (const Index p : loop)
+    reachable[p] = 1;
+  const CsrLists leading_to = makeCsrLists (neighbors.rows (), [&] (const auto& emit) {
+    for (Index p = 0; p < neighbors.rows (); ++p)
+      for (const Index q : neighbors.row (p))
+        if (reachable[p] == 0)
+          emit (q, p);
   });
-}
-
-// Marks and appends all points that lead to the entries of the queue from `head` on.
-void
-search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
-        std::vector<std::uint8_t>& reachable, const RunContext& run)
-{
+  std::vector<Index> queue = loop;
   ProgressLoop progress (run);
-  for (; head < queue.size (); ++head) {
+  for (std::size_t head = 0; head < queue.size (); ++head) {
     progress.next ();
     for (const Index p : leading_to.row (queue[head]))
       if (reachable[p] == 0) {
@@ -41,100 +34,11 @@ search (const CsrLists& leading_to, std::vector<Index>& queue, std::size_t head,
         queue.push_back (p);
       }
   }
+  return reachable;
 }
-
-} // namespace
-
-Reachability
-reachLoop (const CsrLists& neighbors, const CsrLists& nearest,
-           const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,
-           const RunContext& run, const DiscLimits& limits)
-{
-  Reachability result;
-  std::vector<std::uint8_t>& reachable = result.reachable;
-  reachable.assign (positions.size (), 0);
-  std::vector<Index> queue;
-  queue.reserve (positions.size ());
-  for (const Index p : loop)
-    if (reachable[p] == 0) {
-      reachable[p] = 1;
-      queue.push_back (p);
-    }
-  const CsrLists leading_to =
-      reverse (neighbors, [&] (std::size_t p, Index) { return reachable[p] == 0; });
-  search (leading_to, queue, 0, reachable, run);
-  if (queue.size () == positions.size ())
-    return result;
-
-  // Most entries are between two reached points, and are not needed.
-  const CsrLists nearest_of = reverse (
-      nearest, [&] (std::size_t p, Index q) { return reachable[p] == 0 || reachable[q] == 0; });
-  std::vector<std::uint8_t> waiting (positions.size (), 0); // listed for linking
-  std::vector<Index> round;
-  std::vector<std::pair<double, Index>> candidates;
-  for (std::size_t head = 0; head < queue.size ();) {
-    // Unreached points next to a point that was reached since the last round.
-    round.clear ();
-    for (; head < queue.size (); ++head)
-      for (const Row row : {nearest.row (queue[head]), nearest_of.row (queue[head])})
-        for (const Index p : row)
-          if (reachable[p] == 0 && waiting[p] == 0) {
-            waiting[p] = 1;
-            round.push_back (p);
-          }
-    // Each is linked to the nearest reached points. Ties go to the smaller point.
-    for (const Index p : round) {
-      candidates.clear ();
-      for (const Row row : {nearest.row (p), nearest_of.row (p)})
-        for (const Index q : row)
-          if (reachable[q] != 0)
-            candidates.emplace_back ((positions[q] - positions[p]).squaredNorm (), q);
-      sortUnique (candidates);
-      for (std::size_t i = 0; i < std::min (candidates.size (), limits.links_per_point); ++i)
-        result.links.push_back ({p, candidates[i].second});
-    }
-    for (const Index p : round)
-      reachable[p] = 1;
-    queue.insert (queue.end (), round.begin (), round.end ());
-    result.linked_points += round.size ();
-    search (leading_to, queue, head, reachable, run);
-  }
-  std::sort (result.links.begin (), result.links.end ());
-  return result;
-}
-
-namespace {
-// Adds each link as one more neighbour, with the weight of an average neighbour.
-// \param links (point, neighbour), ascending
-void
-addLinks (const std::vector<std::array<Index, 2>>& links, CsrLists& neighbors,
-          std::vector<double>& weights)
-{
-  if (links.empty ())
-    return;
-  CsrLists wider;
-  std::vector<double> wider_weights;
-  wider.offsets.push_back (0);
-  auto link = links.begin ();
-  for (Index p = 0; p < neighbors.rows (); ++p) {
-    const Index first = neighbors.offsets[p], last = neighbors.offsets[p + 1];
-    wider.ids.insert (wider.ids.end (), neighbors.ids.begin () + first,
-                      neighbors.ids.begin () + last);
-    wider_weights.insert (wider_weights.end (), weights.begin () + first, weights.begin () + last);
-    for (; link != links.end () && (*link)[0] == p; ++link) {
-      wider.ids.push_back ((*link)[1]);
-      wider_weights.push_back (1.0 / std::max<double> (1.0, last - first));
-    }
-    wider.offsets.push_back (static_cast<Index> (wider.ids.size ()));
-  }
-  neighbors = std::move (wider);
-  weights = std::move (wider_weights);
-}
-
-} // namespace
 
 Parameterization
-parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nearest, Stars stars,
+parameterize (const std::vector<Eigen::Vector3d>& positions, Stars stars,
               const std::vector<Index>& loop, const DiscOptions& options, const RunContext& run,
               const DiscLimits& limits)
 {
@@ -144,26 +48,21 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nea
   CsrLists neighbors = std::move (stars.neighbors);
   stars = {};
 
-  CsrLists no_links; // TW 385 has none
-  no_links.offsets.assign (positions.size () + 1, 0);
-  const Reachability reach = reachLoop (neighbors, options.as_published ? no_links : nearest,
-                                        positions, loop, run, limits);
-  addLinks (reach.links, neighbors, weights);
-  result.relinked = reach.linked_points;
-  result.unreachable =
-      static_cast<std::size_t> (std::count (reach.reachable.begin (), reach.reachable.end (), 0));
-  const double reached = static_cast<double> (positions.size () - result.unreachable);
+  const std::vector<std::uint8_t> reachable = reachLoop (neighbors, loop, run);
+  const auto unreachable =
+      static_cast<std::size_t> (std::count (reachable.begin (), reachable.end (), 0));
+  const double reached = static_cast<double> (positions.size () - unreachable);
   if (reached < limits.least_reached_share * static_cast<double> (positions.size ())) {
     result.problem = {
         RunStatus::UNREACHABLE,
-        std::to_string (result.unreachable) + " of " + std::to_string (positions.size ()) +
+        std::to_string (unreachable) + " of " + std::to_string (positions.size ()) +
             " points do not connect to the boundary loop: the cloud has several components, or "
             "gaps much wider than its spacing; reconstruct its components one by one, or use "
             "more neighbours"};
     return result;
   }
   const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, options.domain);
-  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reach.reachable);
+  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reachable);
   neighbors = {};
   std::vector<double> ().swap (weights);
   result.unknowns = system.unknowns ();
@@ -214,8 +113,8 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
   // The normals are needed longer than the stars.
   std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
-  disc.parameterization = parameterize (positions, geometry.neighbors, std::move (geometry.stars),
-                                        loop, options, run, settings.limits);
+  disc.parameterization =
+      parameterize (positions, std::move (geometry.stars), loop, options, run, settings.limits);
   geometry.stars = {};
   geometry.stars.normals = std::move (normals);
   disc.problem = disc.parameterization.problem;

@@ -82,9 +82,6 @@ constexpr Sentence SENTENCES[] = {
     {FindingId::STEP_IN_LOOP, "step_in_loop", Severity::DOUBT,
      "the boundary loop has a step of {n0} local spacings at {p0}: it may cut across the surface "
      "there"},
-    {FindingId::LINKED_POINTS, "linked_points", Severity::DOUBT,
-     "{0:point was|points were} not connected to the boundary loop through neighbours, and linked "
-     "to the nearest points that are"},
     {FindingId::ONE_SIDED, "one_sided", Severity::DOUBT,
      "the surface seems to be one-sided, like a Moebius strip: it was cut open along "
      "{0:triangle|triangles} near {p0}"},

@@ -161,9 +161,6 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
     addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
                 boundary.largest_step);
   reportSystem (parameterization, report.statistics);
-  report.statistics.relinked_points = parameterization.relinked;
-  if (parameterization.relinked > 0)
-    addFinding (report, FindingId::LINKED_POINTS, points, {}, parameterization.relinked);
   if (parameterization.uv.empty ())
     return;
   const Eigen::Vector2d nowhere =

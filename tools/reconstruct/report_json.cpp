@@ -24,11 +24,11 @@ PCL_FLOATER_TO_JSON (Statistics, cloud_points, selected_points, non_finite_point
                      largest_stack_height, noise, noise_quantile_90, largest_noise,
                      projected_points, coordinate_step, trimmed_triangles, opened_triangles,
                      trimmed_components, trimmed_points, view_steps, view_gaps, holes_filled,
-                     used_points, relinked_points, boundary_candidates, loop_points, triangles,
-                     flips, folds, necks_cut, remade_points, self_intersections_found,
-                     self_intersection_flips, self_intersection_moves, self_intersection_rebuilds,
-                     unknowns, nnz_matrix, nnz_factors, fill_in, residual, relative_residual,
-                     iterations_u, iterations_v, reciprocal_condition, factorization_bytes)
+                     used_points, boundary_candidates, loop_points, triangles, flips, folds,
+                     necks_cut, remade_points, self_intersections_found, self_intersection_flips,
+                     self_intersection_moves, self_intersection_rebuilds, unknowns, nnz_matrix,
+                     nnz_factors, fill_in, residual, relative_residual, iterations_u, iterations_v,
+                     reciprocal_condition, factorization_bytes)
 
 PCL_FLOATER_TO_JSON (LoopSummary, points, length, width, width_spacings, at)
 

@@ -36,7 +36,7 @@ struct LinearSystem
 /// \param neighbors per point: distinct neighbours, not the point itself; a neighbour that is
 ///                  neither an unknown nor on the loop is left out
 /// \param weights   parallel to neighbors.ids, positive
-/// \param reachable per point; 1 if the point takes part (see Reachability)
+/// \param reachable per point; 1 if the point takes part (see reachLoop ())
 /// \throws IndexLimitReached if the matrix has more than `most_entries`
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,

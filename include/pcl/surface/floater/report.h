@@ -116,7 +116,6 @@ enum class FindingId
   OTHER_VIEWPOINT,      ///< the points are spaced as seen from another place than the given one
   OTHER_DIRECTION,      ///< the same, from far away
   STEP_IN_LOOP,         ///< disc: a long edge in the boundary loop
-  LINKED_POINTS,        ///< disc: points not connected to the boundary loop through neighbours
   ONE_SIDED,            ///< the surface was cut open because it seems one-sided
   DEEP_HOLES,           ///< holes stay open because a filling would be a lid
   UNUSED_POINTS,        ///< points are in no triangle
@@ -243,12 +242,11 @@ struct Statistics
   std::size_t opened_triangles = 0;   ///< trimmed triangles that crossed others
   std::size_t trimmed_components = 0; ///< trimmed components that were too small
   std::size_t trimmed_points = 0;     ///< points that lost all their triangles by trimming
-  std::size_t view_steps = 0;      ///< scan: triangles left out at depth steps, between one surface
-                                   ///< and another behind it
-  std::size_t view_gaps = 0;       ///< scan: triangles left out where rays are missing
-  std::size_t holes_filled = 0;    ///< boundary loops of a surface that were filled
-  std::size_t used_points = 0;     ///< points that are vertices of the mesh
-  std::size_t relinked_points = 0; ///< disc: points that had to be linked to the others
+  std::size_t view_steps = 0;   ///< scan: triangles left out at depth steps, between one surface
+                                ///< and another behind it
+  std::size_t view_gaps = 0;    ///< scan: triangles left out where rays are missing
+  std::size_t holes_filled = 0; ///< boundary loops of a surface that were filled
+  std::size_t used_points = 0;  ///< points that are vertices of the mesh
   std::size_t boundary_candidates = 0; ///< boundary points, before the loop is found
   std::size_t loop_points = 0;         ///< points of the boundary loop
   std::size_t triangles = 0;           ///< triangles of the mesh
