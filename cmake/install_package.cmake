@@ -34,8 +34,7 @@ install (FILES "${PROJECT_BINARY_DIR}/pcl_floaterConfig.cmake"
                "${PROJECT_BINARY_DIR}/pcl_floaterConfigVersion.cmake"
          DESTINATION "${package_dir}" COMPONENT development)
 if (is_static)
-  install (FILES "${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindSuperLU.cmake"
-           DESTINATION "${package_dir}" COMPONENT development)
+  install (FILES "${PROJECT_SOURCE_DIR}/cmake/FindUMFPACK.cmake" DESTINATION "${package_dir}" COMPONENT development)
 endif ()
 
 # For pkg-config. PCL's own .pc files name the version with which this was built, and the next minor
@@ -49,8 +48,7 @@ endforeach ()
 # Such libraries come without .pc files of their own.
 set (static_libraries "")
 if (is_static)
-  set (static_libraries "-lumfpack -lamd -lcholmod ${superlu_target} -lgmp -lmpfr -ldl -pthread")
-  string (REPLACE "SuperLU::SuperLU" "-lsuperlu" static_libraries "${static_libraries}")
+  set (static_libraries "-lumfpack -lamd -lcholmod -lgmp -lmpfr -ldl -pthread")
 endif ()
 # The file tells the prefix relative to itself, so that an installation can be moved.
 file (RELATIVE_PATH prefix_of_pc "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")

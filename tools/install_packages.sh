@@ -18,7 +18,7 @@ END
 }
 
 # With libopenblas0-pthread the factorization is 2.5 times as fast as with the reference BLAS.
-packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libcgal-dev libsuitesparse-dev libsuperlu-dev
+packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libcgal-dev libsuitesparse-dev
           libopenblas0-pthread libcli11-dev nlohmann-json3-dev liblzf-dev liblodepng-dev)
 library=(libpcl-dev libopenmpi-dev openmpi-bin libxxhash-dev pybind11-dev python3-dev python3-numpy)
 for argument in "$@"; do

@@ -49,7 +49,7 @@ log=$build/package.log
 echo "Building the packages (the first time takes minutes) ..."
 if ! {
   cmake --preset release -B "$build" -D CMAKE_INSTALL_PREFIX=/usr -D PCL_FLOATER_PACKAGES=ON \
-    -D PCL_FLOATER_WITH_SUPERLU=ON -D PCL_FLOATER_WITH_LZF=ON -D PCL_FLOATER_WITH_MPI=ON \
+    -D PCL_FLOATER_WITH_LZF=ON -D PCL_FLOATER_WITH_MPI=ON \
     -D PCL_FLOATER_WITH_PYTHON=ON -D PCL_FLOATER_PYTHON=/usr/bin/python3 \
     -D CMAKE_MODULE_LINKER_FLAGS="$link_flags" \
     -D CMAKE_CXX_FLAGS="$flags" -D CMAKE_SHARED_LINKER_FLAGS="$link_flags" \

@@ -31,10 +31,10 @@ const char*
 statusName (RunStatus status)
 {
   static constexpr const char* NAMES[] = {
-      "NOT_RUN",        "SUCCESS",       "NO_INPUT",      "INVALID_OPTION",     "INVALID_INDICES",
-      "TOO_FEW_POINTS", "DEGENERATE",    "NO_BOUNDARY",   "INVALID_LOOP",       "UNREACHABLE",
-      "NOT_A_DISC",     "SINGULAR",      "NOT_CONVERGED", "SOLVER_UNAVAILABLE", "CANCELLED",
-      "OUT_OF_MEMORY",  "INTERNAL_ERROR"};
+      "NOT_RUN",         "SUCCESS",        "NO_INPUT",      "INVALID_OPTION",
+      "INVALID_INDICES", "TOO_FEW_POINTS", "DEGENERATE",    "NO_BOUNDARY",
+      "INVALID_LOOP",    "UNREACHABLE",    "NOT_A_DISC",    "SINGULAR",
+      "NOT_CONVERGED",   "CANCELLED",      "OUT_OF_MEMORY", "INTERNAL_ERROR"};
   static_assert (sizeof NAMES / sizeof *NAMES ==
                  static_cast<std::size_t> (RunStatus::INTERNAL_ERROR) + 1);
   return nameOf (NAMES, status);

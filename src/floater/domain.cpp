@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/domain.h"
 
-#include "core/exact.h"
 #include "core/geometry.h"
-#include "core/order_statistics.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -99,96 +95,6 @@ layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& c
   return uv;
 }
 
-using Outline = std::vector<Eigen::Vector2d>;
-
-// The loop in its least-squares plane along its principal axes, anti-clockwise, in the unit circle.
-Outline
-project (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop)
-{
-  const Eigen::Vector3d& origin = positions[loop.front ()];
-  PlaneFit fit;
-  for (const Index p : loop)
-    fit.add (positions[p] - origin);
-  const PrincipalAxes principal = fit.principalAxes ();
-  Outline outline;
-  outline.reserve (loop.size ());
-  for (const Index p : loop) {
-    const Eigen::Vector3d offset = positions[p] - origin - principal.centre;
-    outline.emplace_back (principal.axes.col (2).dot (offset), principal.axes.col (1).dot (offset));
-  }
-  double area = 0.0;
-  for (std::size_t i = 0; i < outline.size (); ++i)
-    area += cross (outline[i], outline[i + 1 == outline.size () ? 0 : i + 1]);
-  Eigen::AlignedBox2d box;
-  for (Eigen::Vector2d& p : outline) {
-    if (area < 0.0)
-      p.y () = -p.y ();
-    box.extend (p);
-  }
-  double radius = 0.0;
-  for (Eigen::Vector2d& p : outline) {
-    p -= box.center ();
-    radius = std::max (radius, p.norm ());
-  }
-  for (Eigen::Vector2d& p : outline)
-    p /= radius > 0.0 ? radius : 1.0;
-  return outline;
-}
-
-// Marks the points at which a closed polygon does not turn left.
-// \return whether there are none, and it turns once around in total
-bool
-isStrictlyConvex (const Outline& polygon, std::vector<std::uint8_t>& is_wrong)
-{
-  const std::size_t count = polygon.size ();
-  double turn = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    // Differences of nearly equal numbers are exact, so the sign of the cross product is right.
-    const Eigen::Vector2d before = polygon[i] - polygon[(i + count - 1) % count];
-    const Eigen::Vector2d after = polygon[(i + 1) % count] - polygon[i];
-    const double sine = cross (before, after);
-    is_wrong[i] = sine > 0.0 ? 0 : 1;
-    turn += std::atan2 (sine, before.dot (after));
-  }
-  return std::count (is_wrong.begin (), is_wrong.end (), 1) == 0 &&
-         std::abs (turn - 2.0 * PI) < 1.0;
-}
-
-// Lays the loop on the convex hull of its outline. In rounds, corners are dropped where that does not
-// turn left at the corner or on the side after it: those in another order along the loop than along
-// the hull (where the projection crosses itself), those at which the hull turns too little for
-// bulging sides, and those too near to the next one for the points between them.
-// \return empty if fewer than three corners are left, or the loop winds around itself
-Outline
-layOnOwnShape (const Outline& outline, const std::vector<double>& chords)
-{
-  std::vector<std::size_t> corners = convexHull (outline);
-  std::sort (corners.begin (), corners.end ());
-  std::vector<std::uint8_t> is_wrong (outline.size ());
-  while (corners.size () >= 3) {
-    Outline uv = layOnSides (chords, corners, valuesAt (outline, corners));
-    if (isStrictlyConvex (uv, is_wrong))
-      return uv;
-    // Of two corners beside each other one is kept: it turns more without the other one.
-    std::vector<std::size_t> kept;
-    bool was_dropped = false;
-    for (std::size_t c = 0; c < corners.size (); ++c) {
-      const std::size_t end =
-          c + 1 < corners.size () ? corners[c + 1] : corners.front () + outline.size ();
-      std::size_t wrong = 0;
-      for (std::size_t i = corners[c]; i < end; ++i)
-        wrong += is_wrong[i % outline.size ()];
-      was_dropped = wrong > 0 && !was_dropped;
-      if (!was_dropped)
-        kept.push_back (corners[c]);
-    }
-    if (kept.size () == corners.size ())
-      break;
-    corners = std::move (kept);
-  }
-  return {};
-}
-
 } // namespace
 
 std::vector<Eigen::Vector2d>
@@ -203,16 +109,11 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
                 : options.loop_spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (step)
                                                                    : step;
   }
-  if (options.curve == Domain::OWN_SHAPE) {
-    Outline uv = layOnOwnShape (project (positions, loop), chords);
-    if (!uv.empty ())
-      return uv;
-  }
-  if (options.curve == Domain::CIRCLE || options.curve == Domain::OWN_SHAPE)
+  if (options.curve == Domain::CIRCLE)
     return layOnCircle (chords);
   const int sides = options.curve == Domain::SQUARE ? 4 : std::max (3, options.polygon_sides);
   const std::size_t corners = std::min (count, static_cast<std::size_t> (sides));
-  Outline places; // of a regular polygon
+  std::vector<Eigen::Vector2d> places; // of a regular polygon
   for (std::size_t c = 0; c < corners; ++c) {
     const double angle =
         2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;

@@ -20,15 +20,13 @@ namespace pcl::floater {
 ///
 /// Each corner of a regular polygon gets the loop point that is nearest along the loop, a different
 /// one for each, so that no corner is cut off. A loop with fewer points than corners gets a polygon
-/// with fewer corners. OWN_SHAPE has the corners of the loop's own convex hull. A
-/// loop without such a shape, because it lies on a line or winds around itself, is laid on the
-/// circle.
+/// with fewer corners.
 ///
 /// The result is strictly convex, in floating point too, for loops of up to a million points. For
 /// this, the sides of polygons bulge with a thousandth of the circle's curvature (by 2.5e-4 in the
 /// middle of a square's side), and steps are widened to 4e-6, or to half of the mean step of their
 /// side if that is less. On a straight side, an interior point whose neighbours are all on it would
-/// fall on it. O(loop), OWN_SHAPE O(loop log loop).
+/// fall on it. O(loop).
 /// \return parameters, parallel to the loop
 std::vector<Eigen::Vector2d>
 layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& loop,

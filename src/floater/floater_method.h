@@ -37,8 +37,8 @@ struct Parameterization
   std::size_t unknowns = 0;        ///< rows of the linear system
   std::size_t nonzeros = 0;        ///< entries of its matrix
   Solution solution;               ///< figures of the solver; the solution itself is in uv
-  Problem problem; ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, SOLVER_UNAVAILABLE, OUT_OF_MEMORY or
-                   ///< INTERNAL_ERROR
+  Problem problem;                 ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or
+                                   ///< INTERNAL_ERROR
 };
 
 /// Per point: 1 if a path along directed neighbours leads from it to the loop. Others take no part in

@@ -162,8 +162,6 @@ checkOptions (const Options& options)
     return ranges.problem;
   if (Problem problem = checkTogether (options))
     return problem;
-  if (Problem problem = checkSolver (options.disc.solver.method))
-    return problem;
   if (!options.disc.boundary.loop.empty () && options.disc.boundary.loop.size () < 3)
     return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
   return {};

@@ -30,7 +30,7 @@ choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_giv
 
 /// INVALID_OPTION if an option is out of its range, the solver does not take the ordering, or the
 /// hole policy or a given loop does not fit the topology. INVALID_LOOP if the given loop has fewer
-/// than three points. SOLVER_UNAVAILABLE if the library is without the solver.
+/// than three points.
 Problem
 checkOptions (const Options& options);
 

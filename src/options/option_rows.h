@@ -41,10 +41,8 @@ constexpr Choices<Neighborhood, 4> NEIGHBORHOOD_CHOICES{
      {"nearest", Neighborhood::NEAREST},
      {"ball-delaunay", Neighborhood::BALL_DELAUNAY},
      {"ball", Neighborhood::BALL}}};
-constexpr Choices<Domain, 4> DOMAIN_CHOICES{{{"circle", Domain::CIRCLE},
-                                             {"square", Domain::SQUARE},
-                                             {"polygon", Domain::POLYGON},
-                                             {"own-shape", Domain::OWN_SHAPE}}};
+constexpr Choices<Domain, 3> DOMAIN_CHOICES{
+    {{"circle", Domain::CIRCLE}, {"square", Domain::SQUARE}, {"polygon", Domain::POLYGON}}};
 constexpr Choices<LoopSpacing, 3> SPACING_CHOICES{{{"chord-length", LoopSpacing::CHORD_LENGTH},
                                                    {"centripetal", LoopSpacing::CENTRIPETAL},
                                                    {"uniform", LoopSpacing::UNIFORM}}};
@@ -53,8 +51,7 @@ constexpr Choices<Weighting, 4> WEIGHTING_CHOICES{
      {"inverse-distance", Weighting::INVERSE_DISTANCE},
      {"shape-preserving", Weighting::SHAPE_PRESERVING},
      {"mean-value", Weighting::MEAN_VALUE}}};
-constexpr Choices<Solver, 4> SOLVER_CHOICES{{{"umfpack", Solver::UMFPACK},
-                                             {"superlu", Solver::SUPERLU},
+constexpr Choices<Solver, 3> SOLVER_CHOICES{{{"umfpack", Solver::UMFPACK},
                                              {"bicgstab-ilut", Solver::BICGSTAB_ILUT},
                                              {"gauss-seidel", Solver::GAUSS_SEIDEL}}};
 constexpr Choices<Ordering, 5> ORDERING_CHOICES{

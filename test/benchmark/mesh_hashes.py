@@ -22,11 +22,10 @@ OPTIONS = """
 --topology disc --boundary consensus
 --topology disc --boundary two-segments --domain square
 --topology disc --domain polygon --sides 5 --spacing uniform --weights uniform
---topology disc --domain own-shape --spacing centripetal --weights shape-preserving
+--topology disc --spacing centripetal --weights shape-preserving
 --topology disc --weights inverse-distance --neighborhood nearest
 --topology disc --neighborhood ball
 --topology disc --neighborhood ball-delaunay
---topology disc --solver superlu
 --topology disc --solver bicgstab-ilut
 --topology disc --solver gauss-seidel --tolerance 1e-6
 --topology disc --ordering metis

@@ -19,7 +19,7 @@ from scipy.spatial import Delaunay, QhullError, cKDTree
 
 CLOUDS = ("beetle_front", "man_bust", "bunny", "nefertiti", "face_strip", "igea", "field_lidar")
 ORDERINGS = ("amd", "metis", "reverse-cuthill-mckee")
-SOLVERS = ("umfpack", "superlu", "bicgstab-ilut")
+SOLVERS = ("umfpack", "bicgstab-ilut")
 STAGES = ("neighbours", "boundary", "weights", "UMFPACK")  # up to the parameters
 NEIGHBORS = 20
 LARGEST_BAND = 50000  # unknowns; the factors after reverse Cuthill-McKee soon fill the memory
@@ -111,13 +111,13 @@ def measure(tools, cloud, folder, repeats):
     found, seconds, gamma = direct["statistics"], direct["seconds"], direct["statistics"]["fill_in"]
     used = {"neighbours": seconds["working set"] + seconds["neighbors"], "boundary": seconds["boundary"],
             "weights": seconds["stars"] + seconds["weights"], "UMFPACK": seconds["solve"],
-            "BiCGSTAB": runs["bicgstab-ilut"]["seconds"]["solve"], "SuperLU": runs["superlu"]["seconds"]["solve"],
+            "BiCGSTAB": runs["bicgstab-ilut"]["seconds"]["solve"],
             "Delaunay": seconds["delaunay"]}
     points, total = found["working_points"], sum(used[stage] for stage in STAGES)
     gammas = [solve("--ordering", ordering)["statistics"]["fill_in"] for ordering in ORDERINGS
               if ordering != ORDERINGS[-1] or found["unknowns"] <= LARGEST_BAND]
     gammas += [None] * (len(ORDERINGS) - len(gammas))
-    gammas += [runs["superlu"]["statistics"]["fill_in"], iterative["fill_in"]]
+    gammas.append(iterative["fill_in"])
     rows = {
         "memory": [f"{points:,}", f"{found['factorization_bytes'] / points:.0f}", f"{gamma:.1f}",
                    f"{218 + 84 * gamma:.0f}"],
@@ -127,7 +127,7 @@ def measure(tools, cloud, folder, repeats):
                   *(f"{used[stage]:.2f}" for stage in (*STAGES, "BiCGSTAB")),
                   f"{iterative['iterations_u']}, {iterative['iterations_v']}",
                   f"{used['BiCGSTAB'] / used['UMFPACK']:.1f}",
-                  *(f"{value:.2f}" for value in (used["SuperLU"], total, used["Delaunay"]))],
+                  *(f"{value:.2f}" for value in (total, used["Delaunay"]))],
         "residuals": [f"{run['statistics']['relative_residual']:.1e}" if run["status"] == "SUCCESS" else run["status"]
                       for run in runs.values()] + [f"{found['residual']:.1e}", f"{found['reciprocal_condition']:.1e}"]}
     return rows, direct, used
@@ -137,15 +137,14 @@ def write_tables(report, rows, repeats):
     report.add("## Table 1: bytes per point\n\nPeak of the factorization by UMFPACK, and the formula of TW 385, "
                "(218 + 84 gamma) N, for all of the run without that peak.")
     report.table(["cloud", "points", "factorization, measured", "gamma", "formula"], rows["memory"])
-    report.add("## Table 2: fill-in\n\ngamma = nnz (L + U) / nnz (A): of UMFPACK by ordering, of SuperLU, and of the "
+    report.add("## Table 2: fill-in\n\ngamma = nnz (L + U) / nnz (A): of UMFPACK by ordering, and of the "
                f"incomplete factors of ILUT (15, 1e-2). Reverse Cuthill-McKee: up to {LARGEST_BAND:,} unknowns.")
-    report.table(["cloud", "unknowns", "nnz (A)", *ORDERINGS, "SuperLU", "ILUT"], rows["fill_in"])
+    report.table(["cloud", "unknowns", "nnz (A)", *ORDERINGS, "ILUT"], rows["fill_in"])
     report.add(f"## Table 3: seconds\n\nWall time, runs: {repeats}, of which the shortest is taken. Neighbours serve "
                "boundary and weights alike. Solvers: ordering, factorization or preconditioner, both right-hand sides. "
                "BiCGSTAB: with ILUT (15, 1e-2), until its residual is 1e-15 of |b|; iterations for u and v. Total: "
                "up to the parameters with UMFPACK, as in TW 385.")
-    columns = ["cloud", "points", "triangles", *STAGES, "BiCGSTAB", "iterations", "BiCGSTAB / UMFPACK", "SuperLU",
-               "total", "Delaunay"]
+    columns = ["cloud", "points", "triangles", *STAGES, "BiCGSTAB", "iterations", "BiCGSTAB / UMFPACK", "total", "Delaunay"]
     report.table(columns, rows["times"])
     report.add("As printed in TW 385, on a Pentium 4 with 2.4 GHz. BUNNY is the same scan as bunny with 101 points "
                "more; the other models are not ours. BiCGSTAB above is that of Eigen.")

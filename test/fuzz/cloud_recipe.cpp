@@ -312,7 +312,7 @@ decodeDiscOptions (ByteSource& bytes, std::size_t points)
 {
   DiscOptions disc;
   disc.boundary.method = decodeEnum (bytes, BoundaryMethod::TWO_SEGMENTS);
-  disc.domain.curve = decodeEnum (bytes, Domain::OWN_SHAPE);
+  disc.domain.curve = decodeEnum (bytes, Domain::POLYGON);
   disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
   disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
   disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);

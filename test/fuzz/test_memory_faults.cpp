@@ -174,7 +174,6 @@ allWays (std::size_t points)
   iterative.disc.solver.method = Solver::BICGSTAB_ILUT;
   iterative.disc.boundary.method = BoundaryMethod::TWO_SEGMENTS;
   iterative.disc.boundary.cluster_tolerance = 0.3;
-  // SuperLU itself ends the program when it finds no memory.
   ordered.disc.solver.ordering = Ordering::METIS;
   ordered.disc.boundary.method = BoundaryMethod::CONSENSUS;
   balls.neighbors.kind = Neighborhood::BALL_DELAUNAY;

@@ -109,10 +109,6 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
     solveWithBicgstab (system, options, run, solution);
   else if (options.method == Solver::GAUSS_SEIDEL)
     solveWithGaussSeidel (system, options, run, solution);
-#ifdef PCL_FLOATER_HAS_SUPERLU
-  else if (options.method == Solver::SUPERLU)
-    solveWithSuperlu (system, ordering, solution);
-#endif
   else
     solveWithUmfpack (system, ordering, run, solution);
   if (solution.uv.rows () > 0)
@@ -120,18 +116,6 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
 }
 
 } // namespace
-
-Problem
-checkSolver ([[maybe_unused]] Solver solver)
-{
-#ifndef PCL_FLOATER_HAS_SUPERLU
-  if (solver == Solver::SUPERLU)
-    return {RunStatus::SOLVER_UNAVAILABLE,
-            "this build of pcl_floater does not have SuperLU; choose another solver, or build "
-            "pcl_floater where that library is installed"};
-#endif
-  return {};
-}
 
 Residual
 measureResidual (const LinearSystem& system, Eigen::Index side,
@@ -167,9 +151,6 @@ Solution
 solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run)
 {
   Solution solution;
-  solution.problem = checkSolver (options.method);
-  if (solution.problem)
-    return solution;
   if (system.unknowns () == 0) {
     solution.reciprocal_condition = 1.0;
     return solution;

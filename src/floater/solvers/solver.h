@@ -47,7 +47,7 @@ assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
 /// The solution of a LinearSystem, and what it cost.
 struct Solution
 {
-  Problem problem; ///< SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY, SOLVER_UNAVAILABLE or INTERNAL_ERROR
+  Problem problem;     ///< SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or INTERNAL_ERROR
   Eigen::MatrixX2d uv; ///< per unknown; no rows if there is a problem
   std::size_t nnz_factors =
       0;                 ///< entries of L and U, also of incomplete factors; the unit diagonal
@@ -59,10 +59,6 @@ struct Solution
                                      ///< no unknown
   std::size_t peak_bytes = 0;        ///< direct solvers: largest memory of the factorization
 };
-
-/// SOLVER_UNAVAILABLE if the library is without the solver.
-Problem
-checkSolver (Solver solver);
 
 /// Solves for both coordinates with options.method in the order options.ordering. An empty system
 /// has no problem. Direct solvers refuse a singular system by a pivot of rounding errors. An iterative

@@ -8,25 +8,20 @@
 #include <algorithm>
 
 namespace pcl::floater {
-// Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the residual and the pivots. The direct ones get the rows as the columns of the
-// transpose, whose dominant diagonal keeps pivots on the diagonal. They make one factorization for
-// both right-hand sides, with one BLAS thread.
+// Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the
+// residual and the pivots.
 
 /// Why there is no solution.
 /// \param status SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY, or INTERNAL_ERROR
 Problem
 notSolved (RunStatus status, const std::string& why);
 
+/// One factorization for both right-hand sides, with one BLAS thread. The rows are the columns of the
+/// transpose, whose dominant diagonal keeps pivots on the diagonal.
 /// \param ordering AMD, or NATURAL: as the unknowns come
 void
 solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,
                   Solution& solution);
-
-/// If the factors do not fit into memory, that is a problem; if SuperLU cannot get one of its small
-/// working arrays, it ends the process.
-/// \param ordering AUTOMATIC: minimum degree on A + A^T, or NATURAL
-void
-solveWithSuperlu (const LinearSystem& system, Ordering ordering, Solution& solution);
 
 /// BiCGSTAB with Eigen's IncompleteLUT: one incomplete factorization, then each coordinate by
 /// itself. The residual that BiCGSTAB updates drifts away from the true one. So the true one is

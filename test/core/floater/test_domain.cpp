@@ -219,35 +219,6 @@ TEST (Domain, StepsAreByLengthByItsRootOrEqual)
   }
 }
 
-TEST (Domain, OwnShapeOfAConvexLoopIsTheLoop)
-{
-  Loop loop = slantedLoop ({{0, 0}, {4, 0}, {5, 2}, {3, 4}, {-1, 3}}, 8);
-  for (const bool reversed : {false, true}) {
-    if (reversed) {
-      std::rotate (loop.points.begin (), loop.points.begin () + 7, loop.points.end ());
-      std::reverse (loop.points.begin (), loop.points.end ());
-    }
-    const Places laid = loop.lay (Domain::OWN_SHAPE);
-    expectStrictlyConvex (laid);
-    Places uv (laid.size ()); // per point
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < laid.size (); ++i) {
-      uv[loop.points[i]] = laid[i];
-      farthest = std::max (farthest, laid[i].norm ());
-    }
-    EXPECT_NEAR (farthest, 1.0, 1e-14);
-    const auto distance = [&] (std::size_t i, std::size_t j) {
-      return (loop.positions[i] - loop.positions[j]).norm ();
-    };
-    const double scale = (uv[0] - uv[16]).norm () / distance (0, 16);
-    for (std::size_t i = 0; i < uv.size (); ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const bool corners = i % 8 == 0 && j % 8 == 0;
-        EXPECT_NEAR ((uv[i] - uv[j]).norm (), scale * distance (i, j), corners ? 1e-14 : 1e-3);
-      }
-  }
-}
-
 using Lists = std::vector<std::vector<Index>>;
 
 CsrLists

@@ -71,10 +71,9 @@ enum class Neighborhood
 /// Convex curve on which the boundary loop is laid (TW 385, section 2.1).
 enum class Domain
 {
-  CIRCLE,   ///< unit circle
-  SQUARE,   ///< square inscribed in the unit circle
-  POLYGON,  ///< regular polygon with DomainOptions::polygon_sides sides, inscribed in that circle
-  OWN_SHAPE ///< convex hull of the loop, projected on its least-squares plane
+  CIRCLE, ///< unit circle
+  SQUARE, ///< square inscribed in the unit circle
+  POLYGON ///< regular polygon with DomainOptions::polygon_sides sides, inscribed in that circle
 };
 
 /// Spacing of the points of the loop along the convex curve.
@@ -98,7 +97,6 @@ enum class Weighting
 enum class Solver
 {
   UMFPACK,       ///< direct; symmetric strategy
-  SUPERLU,       ///< direct; if built with SuperLU; ends the program if there is no memory
   BICGSTAB_ILUT, ///< iterative, preconditioned by an incomplete LU factorization
   GAUSS_SEIDEL   ///< iterative; converges for small clouds only
 };
@@ -106,10 +104,10 @@ enum class Solver
 /// Order of the unknowns, of rows and columns alike.
 enum class Ordering
 {
-  AUTOMATIC, ///< UMFPACK: AMD up to 100,000 unknowns, METIS above; SUPERLU: minimum degree;
-             ///< iterative solvers: NATURAL
-  AMD,       ///< approximate minimum degree
-  METIS,     ///< nested dissection by METIS
+  AUTOMATIC,             ///< UMFPACK: AMD up to 100,000 unknowns, METIS above;
+                         ///< iterative solvers: NATURAL
+  AMD,                   ///< approximate minimum degree
+  METIS,                 ///< nested dissection by METIS
   REVERSE_CUTHILL_MCKEE, ///< small bandwidth
   NATURAL                ///< as the points are stored: along a space-filling curve
 };

@@ -33,10 +33,9 @@ enum class RunStatus
   NOT_A_DISC,      ///< disc: the surface has handles or several components, or is closed
   SINGULAR,        ///< disc: the linear system has no unique solution
   NOT_CONVERGED,   ///< disc: an iterative solver did not reach its tolerance
-  SOLVER_UNAVAILABLE, ///< the library was built without this solver
-  CANCELLED,          ///< Options::cancelled_callback returned true
-  OUT_OF_MEMORY,      ///< an allocation failed, or a table outgrew its 32-bit indices
-  INTERNAL_ERROR      ///< the mesh did not pass the final check; please report it
+  CANCELLED,       ///< Options::cancelled_callback returned true
+  OUT_OF_MEMORY,   ///< an allocation failed, or a table outgrew its 32-bit indices
+  INTERNAL_ERROR   ///< the mesh did not pass the final check; please report it
 };
 
 /// Short name of a status in upper case ("NO_BOUNDARY").
