@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -94,18 +95,61 @@ findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
 }
 
 namespace {
-// Logarithm of the 90 % quantile over the 10 % quantile; 0 for few values.
+// Numbers that are taken at once.
+using Floats = float __attribute__ ((vector_size (32)));
+using Ints = std::int32_t __attribute__ ((vector_size (32)));
+constexpr std::uint32_t LANES = 8;
+
+// Not returned, since how that is done depends on the processor.
+void
+load (const std::vector<float>& values, std::size_t first, Floats& loaded)
+{
+  std::memcpy (&loaded, values.data () + first, sizeof loaded);
+}
+
+// As valuesAtRanks () of the first values, by counting what is below each of them: they are few, and
+// their order is random, so that comparing them one by one takes longer.
+// \param values with some more, for the last lanes
+PCL_FLOATER_WIDE std::pair<float, float>
+fewAtRanks (const std::vector<float>& values, std::uint32_t size, std::int32_t low,
+            std::int32_t high)
+{
+  std::pair<float, float> found{};
+  for (std::uint32_t first = 0; first < size; first += LANES) {
+    Floats own;
+    load (values, first, own);
+    Ints below{}, up_to{};
+    for (std::uint32_t i = 0; i < size; ++i) {
+      below -= values[i] < own;
+      up_to -= values[i] <= own;
+    }
+    for (std::uint32_t k = 0; k < LANES && first + k < size; ++k) {
+      if (below[k] <= low && low < up_to[k])
+        found.first = own[k];
+      if (below[k] <= high && high < up_to[k])
+        found.second = own[k];
+    }
+  }
+  return found;
+}
+
+// Logarithm of the ratio of a 90 % quantile over a 10 % quantile.
 template <typename Value>
 double
-spreadOf (std::vector<Value>& values)
+logOfRatio (const std::pair<Value, Value>& ends)
 {
-  constexpr std::size_t FEW = 10;
-  if (values.size () < FEW)
-    return 0.0;
-  const auto [low, high] = valuesAtRanks (values, values.size () / 10, values.size () * 9 / 10);
-  const auto small = static_cast<double> (low), large = static_cast<double> (high);
+  const auto small = static_cast<double> (ends.first), large = static_cast<double> (ends.second);
   constexpr double LARGEST = 10.0; // maximum of the logarithm, also for patches without rows
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
+}
+
+constexpr std::size_t FEWEST_VALUES = 10; // with a spread
+
+double
+spreadOf (std::vector<double>& values)
+{
+  const std::size_t size = values.size ();
+  return size < FEWEST_VALUES ? 0.0 : logOfRatio (valuesAtRanks (values, size / 10, size * 9 / 10));
 }
 
 // The mean over the patches. Where the meridians of a scanner meet, rays coincide and there are no rows:
@@ -126,6 +170,7 @@ meanOver (std::vector<double>& spreads, const Viewpoint& viewpoint)
 // six digits of their small distances; and what is near those of its first half, which are judged.
 struct PatchRays
 {
+  std::uint32_t judged;
   std::vector<float> x, y, z;
   std::vector<float> nearest, second; // distances to the nearest two rays; infinite if none
   std::vector<float> across;     // to the nearest one more than 45 degrees off the direction to the
@@ -134,8 +179,9 @@ struct PatchRays
 
   PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
              const Viewpoint& viewpoint, bool with_across)
-      : x (patch.size () + LANES), y (x.size ()), z (x.size ()), nearest (x.size ()),
-        second (x.size ()), across (x.size ()), at (x.size ())
+      : judged (static_cast<std::uint32_t> (patch.size () / 2)), x (patch.size () + LANES),
+        y (x.size ()), z (x.size ()), nearest (x.size ()), second (x.size ()), across (x.size ()),
+        at (x.size ())
   {
     Eigen::Vector3d first = Eigen::Vector3d::Zero ();
     for (std::size_t i = 0; i < patch.size (); ++i) {
@@ -147,72 +193,65 @@ struct PatchRays
       y[i] = offset.y ();
       z[i] = offset.z ();
     }
-    const auto size = static_cast<std::uint32_t> (patch.size ());
-    for (std::uint32_t i = 0; i < size / 2; i += LANES)
-      judge (i, size, with_across);
-    for (std::vector<float>* const distances : {&nearest, &second, &across})
-      distances->resize (size / 2);
+    for (std::uint32_t i = 0; i < judged; i += LANES)
+      judge (i, static_cast<std::int32_t> (patch.size ()), with_across);
+  }
+
+  // Of the distances of the rays that are judged.
+  double spreadOf (const std::vector<float>& distances) const
+  {
+    return judged < FEWEST_VALUES
+               ? 0.0
+               : logOfRatio (fewAtRanks (distances, judged, static_cast<std::int32_t> (judged / 10),
+                                         static_cast<std::int32_t> (judged * 9 / 10)));
   }
 
 private:
-  static constexpr std::uint32_t LANES = 8; // rays that are judged at once, by vector instructions
-  static constexpr float NONE_YET = std::numeric_limits<float>::infinity ();
-  using Floats = std::array<float, LANES>;
-
-  // Without a branch.
-  static bool bothHold (bool one, bool other)
+  PCL_FLOATER_WIDE void judge (std::uint32_t first, std::int32_t size, bool with_across)
   {
-    return (static_cast<int> (one) & static_cast<int> (other)) != 0;
-  }
-
-  PCL_FLOATER_WIDE void judge (std::uint32_t first, std::uint32_t size, bool with_across)
-  {
-    Floats px, py, pz, d1, d2, dx, dy, dz;
-    std::array<std::uint32_t, LANES> own, best;
-    for (std::uint32_t k = 0; k < LANES; ++k) {
-      own[k] = best[k] = first + k;
-      px[k] = x[first + k];
-      py[k] = y[first + k];
-      pz[k] = z[first + k];
-      d1[k] = d2[k] = NONE_YET;
+    constexpr float NONE_YET = std::numeric_limits<float>::infinity ();
+    Floats px, py, pz;
+    load (x, first, px);
+    load (y, first, py);
+    load (z, first, pz);
+    const Ints own = Ints{0, 1, 2, 3, 4, 5, 6, 7} + static_cast<std::int32_t> (first);
+    Ints best = own;
+    Floats d1 = Floats{} + NONE_YET, d2 = d1;
+    for (std::int32_t i = 0; i < size; ++i) {
+      const Floats u = x[i] - px, v = y[i] - py, w = z[i] - pz;
+      const Floats sum = u * u + v * v + w * w;
+      const Ints is_other = (own != i) & (sum < NONE_YET);
+      const Floats square = is_other ? sum : Floats{} + NONE_YET;
+      const Ints is_nearer = square < d1;
+      const Floats rest = is_nearer ? d1 : square;
+      d1 = is_nearer ? square : d1;
+      best = is_nearer ? Ints{} + i : best;
+      d2 = rest < d2 ? rest : d2;
     }
-    for (std::uint32_t i = 0; i < size; ++i)
-      for (std::uint32_t k = 0; k < LANES; ++k) {
-        const float u = x[i] - px[k], v = y[i] - py[k], w = z[i] - pz[k];
-        const float sum = u * u + v * v + w * w;
-        const float square = bothHold (i != own[k], sum < NONE_YET) ? sum : NONE_YET;
-        const float one = d1[k], two = d2[k];
-        const std::uint32_t at_one = best[k];
-        // No choice of integers by floats, which would stay scalar.
-        const std::uint32_t mask = square < one ? ~0U : 0U;
-        const float rest = square < one ? one : square;
-        d1[k] = square < one ? square : one;
-        best[k] = (i & mask) | (at_one & ~mask);
-        d2[k] = rest < two ? rest : two;
-      }
+    Floats dx, dy, dz;
     for (std::uint32_t k = 0; k < LANES; ++k) {
-      at[own[k]] = best[k];
-      nearest[own[k]] = std::sqrt (d1[k]);
-      second[own[k]] = std::sqrt (d2[k]);
-      dx[k] = x[best[k]] - px[k];
-      dy[k] = y[best[k]] - py[k];
-      dz[k] = z[best[k]] - pz[k];
-      d1[k] *= 0.5F; // squared cosine of 45 degrees
-      d2[k] = NONE_YET;
+      const auto b = static_cast<std::uint32_t> (best[k]);
+      at[first + k] = b;
+      nearest[first + k] = std::sqrt (d1[k]);
+      second[first + k] = std::sqrt (d2[k]);
+      dx[k] = x[b] - px[k];
+      dy[k] = y[b] - py[k];
+      dz[k] = z[b] - pz[k];
     }
     if (!with_across)
       return;
-    for (std::uint32_t i = 0; i < size; ++i)
-      for (std::uint32_t k = 0; k < LANES; ++k) {
-        const float u = x[i] - px[k], v = y[i] - py[k], w = z[i] - pz[k];
-        const float square = u * u + v * v + w * w;
-        const float part = u * dx[k] + v * dy[k] + w * dz[k];
-        const bool is_across =
-            bothHold (bothHold (i != best[k], square > 0.0F), part * part <= d1[k] * square);
-        d2[k] = bothHold (is_across, square < d2[k]) ? square : d2[k];
-      }
+    d1 *= 0.5F; // squared cosine of 45 degrees
+    d2 = Floats{} + NONE_YET;
+    for (std::int32_t i = 0; i < size; ++i) {
+      const Floats u = x[i] - px, v = y[i] - py, w = z[i] - pz;
+      const Floats square = u * u + v * v + w * w;
+      const Floats part = u * dx + v * dy + w * dz;
+      const Ints is_across = (best != i) & (square > 0.0F) & (part * part <= d1 * square);
+      const Ints is_nearer = is_across & (square < d2);
+      d2 = is_nearer ? square : d2;
+    }
     for (std::uint32_t k = 0; k < LANES; ++k)
-      across[own[k]] = d2[k] < NONE_YET ? std::sqrt (d2[k]) : 0.0F;
+      across[first + k] = d2[k] < NONE_YET ? std::sqrt (d2[k]) : 0.0F;
   }
 };
 
@@ -226,9 +265,9 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
   std::vector<RayEvidence> found (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
     const RayPatch& patch = patches[k];
-    PatchRays rays (positions, patch, viewpoint, false);
+    const PatchRays rays (positions, patch, viewpoint, false);
     RayEvidence& evidence = found[k];
-    evidence.judged = rays.nearest.size ();
+    evidence.judged = rays.judged;
     std::vector<double> between_points;
     for (std::size_t i = 0; i < evidence.judged; ++i) {
       evidence.near += static_cast<double> (rays.nearest[i]) <
@@ -237,7 +276,7 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
                            : 0;
       between_points.push_back ((positions[patch[rays.at[i]]] - positions[patch[i]]).norm ());
     }
-    evidence.ray_spread = spreadOf (rays.nearest);
+    evidence.ray_spread = rays.spreadOf (rays.nearest);
     evidence.point_spread = spreadOf (between_points);
   });
   RayEvidence evidence;
@@ -256,9 +295,9 @@ findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<
 {
   std::vector<double> of_rays (patches.size ()), of_rows (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    PatchRays rays (positions, patches[k], viewpoint, with_rows);
-    of_rays[k] = spreadOf (rays.nearest);
-    of_rows[k] = with_rows ? spreadOf (rays.across) : 0.0;
+    const PatchRays rays (positions, patches[k], viewpoint, with_rows);
+    of_rays[k] = rays.spreadOf (rays.nearest);
+    of_rows[k] = with_rows ? rays.spreadOf (rays.across) : 0.0;
   });
   return meanOver (of_rays, viewpoint) + (with_rows ? meanOver (of_rows, viewpoint) : 0.0);
 }
