@@ -9,6 +9,7 @@
 #include "mesh/folds.h"
 #include "mesh/trimming.h"
 #include "mesh/vertex_splits.h"
+#include "points/net.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
 #include "report/report_mesh.h"
@@ -185,25 +186,43 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   return problem;
 }
 
-// The longest boundary loop of the surface that the stars make.
+// The longest boundary loop of the surface that the stars make: those of a net where points lie on
+// others, which a layout in the plane needs no net for.
 Boundary
 loopOfSurface (const Points& points, LocalGeometry geometry, const Request& request)
 {
   const RunContext run = request.run.withinStage ();
+  const NeighborSettings neighbors{request.options.neighbors};
+  Points net = points;
+  net.projected = {};
+  chooseNet (net, geometry.neighbors, neighbors, request.limits.net, run, nullptr);
+  if (net.stacked.of.empty ())
+    net.projected = points.projected;
+  else {
+    const StarSettings stars = starSettings (request);
+    LocalPlanes planes =
+        fitLocalPlanes (net, std::move (geometry.neighbors), {}, stars, run, request.limits.planes);
+    geometry = makeLocalGeometry (net, std::move (planes), stars, run);
+  }
   SurfaceSettings settings;
   settings.holes.policy = HolePolicy::KEEP_LARGEST;
   settings.limits = request.limits.surface;
   Boundary boundary;
   double longest = 0.0;
   for (std::vector<Index>& loop :
-       boundaryLoops (makeSurface (points, geometry, settings, run).mesh, run)) {
+       boundaryLoops (makeSurface (net, geometry, settings, run).mesh, run)) {
     boundary.candidates += loop.size ();
-    const double length = perimeter (points.positions, loop);
+    const double length = perimeter (net.positions, loop);
     if (length > longest) {
       longest = length;
       boundary.loop = std::move (loop);
     }
   }
+  std::vector<Index> of_net (net.size ()); // the net has the points in the same order
+  for (Index p = 0, kept = 0; kept < of_net.size (); ++p)
+    if (points.cloud_index[p] == net.cloud_index[kept])
+      of_net[kept++] = p;
+  boundary.loop = valuesAt (of_net, boundary.loop);
   return boundary;
 }
 

@@ -102,6 +102,20 @@ TEST (LoopOfSurface, IsTheOuterBorderOfASheet)
     }
 }
 
+// Each point twice, a tenth of the spacing apart: one of each two is on the loop.
+TEST (LoopOfSurface, HasPointsOnOthersOnce)
+{
+  const Sheet sheet = disc (0.06, 1);
+  const std::size_t count = sheet.positions.size ();
+  const Report report =
+      discOf (joined (sheet.positions, placed (sheet.positions, {0.0, 0.0, 0.006})));
+  EXPECT_EQ (report.status, RunStatus::SUCCESS) << report.message;
+  std::vector<Index> loop = report.loop;
+  for (Index& p : loop)
+    p %= static_cast<Index> (count);
+  EXPECT_EQ (canonicalCycle (loop), indices (sheet.border));
+}
+
 // `count` points at even steps of the parameter, each moved by up to `jitter` steps.
 Positions
 sample (const std::function<Eigen::Vector3d (double)>& curve, int count, double jitter)
