@@ -308,9 +308,9 @@ private:
   }
 
   bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                   const EvidenceLimits& limits, const EvidenceExcess& excess) const
+                   const EvidenceExcess& excess) const
   {
-    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
+    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, coarse_, run_);
     return findRaySpread (positions_, patches, viewpoint, false, run_) >
                excess.regularity * evidence_.regularity * evidence.point_spread ||
            evidence.nearShare () > excess.near_share * evidence_.near_share;
@@ -338,18 +338,14 @@ private:
                             viewpoint, evidence_, run_);
   }
 
-  // Patches from a better viewpoint give a still better one; far from it, a few suffice.
+  // Patches from a better viewpoint give a still better one. A few suffice until the end.
   std::optional<Found> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
   {
     constexpr std::size_t EARLY = 3; // rounds
     std::vector<RayPatch> patches;
-    const auto findPatches = [&] (const EvidenceLimits& limits) {
-      return findRayPatches (positions_, viewpoint, limits, run_);
-    };
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
-      const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
-      patches = findPatches (limits);
-      if (round == EARLY && isHopeless (patches, viewpoint, limits, limits_.early_from_far))
+      patches = findRayPatches (positions_, viewpoint, coarse_, run_);
+      if (round == EARLY && isHopeless (patches, viewpoint, limits_.early_from_far))
         return {};
       const auto cost = [&] (const Viewpoint& v) {
         return findRaySpread (positions_, patches, v, with_rows, run_);
@@ -358,13 +354,13 @@ private:
           patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
               .viewpoint;
       step *= 0.4;
-      if (isHopeless (patches, viewpoint, limits,
+      if (isHopeless (patches, viewpoint,
                       round >= EARLY     ? limits_.late
                       : viewpoint.is_far ? limits_.early_from_far
                                          : limits_.early))
         return {};
     }
-    patches = findPatches (evidence_);
+    patches = findRayPatches (positions_, viewpoint, evidence_, run_);
     const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     const bool is_sure = isSeenFromThere (rays, evidence_);
     // Along a far direction, nothing is beside.
