@@ -308,9 +308,9 @@ private:
   }
 
   bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                   const EvidenceExcess& excess) const
+                   const EvidenceLimits& limits, const EvidenceExcess& excess) const
   {
-    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, coarse_, run_);
+    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
     return findRaySpread (positions_, patches, viewpoint, false, run_) >
                excess.regularity * evidence_.regularity * evidence.point_spread ||
            evidence.nearShare () > excess.near_share * evidence_.near_share;
@@ -338,14 +338,18 @@ private:
                             viewpoint, evidence_, run_);
   }
 
-  // Patches from a better viewpoint give a still better one. A few suffice until the end.
+  // Patches from a better viewpoint give a still better one; far from it, a few suffice.
   std::optional<Found> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
   {
     constexpr std::size_t EARLY = 3; // rounds
     std::vector<RayPatch> patches;
+    const auto findPatches = [&] (const EvidenceLimits& limits) {
+      return findRayPatches (positions_, viewpoint, limits, run_);
+    };
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
-      patches = findRayPatches (positions_, viewpoint, coarse_, run_);
-      if (round == EARLY && isHopeless (patches, viewpoint, limits_.early_from_far))
+      const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
+      patches = findPatches (limits);
+      if (round == EARLY && isHopeless (patches, viewpoint, limits, limits_.early_from_far))
         return {};
       const auto cost = [&] (const Viewpoint& v) {
         return findRaySpread (positions_, patches, v, with_rows, run_);
@@ -354,13 +358,13 @@ private:
           patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
               .viewpoint;
       step *= 0.4;
-      if (isHopeless (patches, viewpoint,
+      if (isHopeless (patches, viewpoint, limits,
                       round >= EARLY     ? limits_.late
                       : viewpoint.is_far ? limits_.early_from_far
                                          : limits_.early))
         return {};
     }
-    patches = findRayPatches (positions_, viewpoint, evidence_, run_);
+    patches = findPatches (evidence_);
     const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     const bool is_sure = isSeenFromThere (rays, evidence_);
     // Along a far direction, nothing is beside.

@@ -44,13 +44,10 @@ struct SearchLimits
   std::size_t directions = 100;       ///< of farther viewpoints: 20 degrees apart
   std::size_t starts = 24;            ///< best viewpoints by areas, from which descents start
   std::size_t area_evaluations = 200; ///< in each descent by areas
-  std::size_t by_rays = 3; ///< best of these by rays, which are refined until one is right
-  std::size_t rounds = 7;  ///< of a refinement, each with new patches. With 9, as many of
-                           ///< 278 generated scans were recognised, and none was better
-  std::size_t coarse_patches =
-      32; ///< of EvidenceLimits::patches, during the search. With 64 or 128
-          ///< after three rounds, as many of 80 generated scans were
-          ///< recognised
+  std::size_t by_rays = 3;         ///< best of these by rays, which are refined until one is right
+  std::size_t rounds = 7;          ///< of a refinement, each with new patches. With 9, as many of
+                                   ///< 278 generated scans were recognised, and none was better
+  std::size_t coarse_patches = 32; ///< of EvidenceLimits::patches, in the first three rounds
   std::size_t ray_evaluations = 400; ///< in each round
 
   /// After each of the first three rounds, and after later ones, which hardly change the evidence.
