@@ -17,7 +17,7 @@ using Shares = std::array<double, STAGES>; // in percent, in the order of the st
 constexpr Shares OF_SURFACE{5, 29, 43, 11, 0, 0, 0, 0, 1, 8, 3};
 // Measured on height fields of 100,000 and of a million points with two cores. The share of the
 // solver grows with the number of points, from a third to more than half.
-constexpr Shares OF_DISC{2, 10, 17, 0, 2, 2, 46, 5, 0, 13, 3};
+constexpr Shares OF_DISC{2, 8, 15, 0, 12, 2, 38, 5, 0, 15, 3};
 
 } // namespace
 
