@@ -103,17 +103,19 @@ circle (double radius, double step)
   return outline;
 }
 
+/// Inside the first outline and outside the others, which lie in it.
 inline bool
-isInside (const Outline& outline, const Eigen::Vector2d& p)
+isInside (const std::vector<Outline>& outlines, const Eigen::Vector2d& p)
 {
   bool inside = false;
-  for (std::size_t i = 0; i < outline.size (); ++i) {
-    const Eigen::Vector2d& a = outline[i];
-    const Eigen::Vector2d& b = outline[(i + 1) % outline.size ()];
-    if ((a.y () > p.y ()) != (b.y () > p.y ()) &&
-        p.x () < a.x () + (p.y () - a.y ()) / (b.y () - a.y ()) * (b.x () - a.x ()))
-      inside = !inside;
-  }
+  for (const Outline& outline : outlines)
+    for (std::size_t i = 0; i < outline.size (); ++i) {
+      const Eigen::Vector2d& a = outline[i];
+      const Eigen::Vector2d& b = outline[(i + 1) % outline.size ()];
+      if ((a.y () > p.y ()) != (b.y () > p.y ()) &&
+          p.x () < a.x () + (p.y () - a.y ()) / (b.y () - a.y ()) * (b.x () - a.x ()))
+        inside = !inside;
+    }
   return inside;
 }
 
@@ -138,9 +140,7 @@ fillOutlines (const std::vector<Outline>& outlines, double step, double jitter, 
     for (double x = box.min ().x (); x < box.max ().x (); x += step) {
       const Eigen::Vector2d p (x + step * (0.5 + jitter * (2.0 * random.uniform () - 1.0)),
                                y + step * (0.5 + jitter * (2.0 * random.uniform () - 1.0)));
-      bool within = isInside (outlines.front (), p);
-      for (std::size_t hole = 1; hole < outlines.size (); ++hole)
-        within = within && !isInside (outlines[hole], p);
+      bool within = isInside (outlines, p);
       for (std::size_t i = 0; within && i < border.size (); ++i)
         within = (border[i] - p).squaredNorm () > 0.36 * step * step;
       if (within)
@@ -216,6 +216,19 @@ unordered (const std::vector<Triangle>& triangles)
     sorted.insert (t);
   }
   return sorted;
+}
+
+/// Expects an oriented manifold of so many vertices, components and boundary loops.
+inline void
+expectTopology (const std::vector<Triangle>& triangles, std::size_t vertices,
+                std::size_t components, long euler, std::size_t loops)
+{
+  const MeshTopology topology = topologyOf (triangles);
+  EXPECT_TRUE (topology.manifold);
+  EXPECT_EQ (topology.vertices, vertices);
+  EXPECT_EQ (topology.components, components);
+  EXPECT_EQ (topology.euler, euler);
+  EXPECT_EQ (topology.loops.size (), loops);
 }
 
 inline double
@@ -408,10 +421,7 @@ randomInside (const std::vector<Outline>& outlines, RandomStream& random)
   for (;;) {
     const double x = random.uniform (), y = random.uniform ();
     const Eigen::Vector2d p = box.min () + box.sizes ().cwiseProduct (Eigen::Vector2d (x, y));
-    bool within = isInside (outlines.front (), p);
-    for (std::size_t hole = 1; within && hole < outlines.size (); ++hole)
-      within = !isInside (outlines[hole], p);
-    if (within)
+    if (isInside (outlines, p))
       return p;
   }
 }

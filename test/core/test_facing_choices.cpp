@@ -17,7 +17,6 @@ namespace pcl::floater {
 namespace {
 using Eigen::Vector3d;
 using namespace samples;
-using Direction = std::function<Vector3d (const Vector3d&)>;
 
 const Direction UP = [] (const Vector3d&) { return Vector3d::UnitZ (); };
 const Direction DOWN = [] (const Vector3d&) { return Vector3d (-Vector3d::UnitZ ()); };
@@ -63,18 +62,6 @@ run (const Positions& points, const Asked& asked, Options options = {})
   Result result = reconstruct (std::move (input), options);
   EXPECT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   return result;
-}
-
-// Share of the triangles that face there.
-double
-shareFacing (const Result& result, const Positions& positions, const Direction& there)
-{
-  std::size_t facing = 0;
-  for (const auto& t : result.triangles) {
-    const Vector3d &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
-    facing += (b - a).cross (c - a).dot (there ((a + b + c) / 3.0)) > 0.0 ? 1 : 0;
-  }
-  return static_cast<double> (facing) / static_cast<double> (result.triangles.size ());
 }
 
 std::size_t
@@ -124,11 +111,6 @@ TEST (FacingChoices, NormalsOfAClosedBody)
     expectFacing (body, {facing, nothing}, OUT, FacingRule::CLOSED,
                   facing == Facing::AUTO ? "" : "no point has a normal on 1 part of the mesh");
   }
-  Options options;
-  options.facing = Facing::NORMALS;
-  const Report none = reconstruct (asInput (body), options).report;
-  EXPECT_EQ (none.status, RunStatus::INVALID_OPTION);
-  EXPECT_NE (none.message.find ("have no normals"), std::string::npos);
 }
 
 TEST (FacingChoices, EveryComponentFacesByItsOwnNormals)

@@ -6,6 +6,7 @@
 #include "core/csr_lists.h"
 #include "core/geometry.h"
 #include "core/run_context.h"
+#include "mesh/known_meshes.h"
 #include "options/option_rows.h"
 #include "samples.h"
 
@@ -61,12 +62,25 @@ TEST (RunStatus, OfRunsThatFail)
   Positions apart = curve; // three curves, too far apart for a scan
   for (const double y : {300.0, 600.0})
     apart = joined (apart, placed (curve, {0.0, y, 0.0}));
-  Options made_surface, no_view, few_neighbors = discOptions (), few_iterations = discOptions ();
+  Positions on_ray{{0.0, 1e-3, 5.0}}; // but for this one
+  for (int i = 1; i < 10; ++i)
+    on_ray.emplace_back (0.0, 0.0, i);
+  constexpr Index AROUND = 60;
+  const Positions torus = samples::torus (AROUND, 12).positions;
+  const Options around_cells =
+      withLoop ({0, 1, 2, AROUND + 2, 2 * AROUND + 2, 2 * AROUND + 1, 2 * AROUND, AROUND});
+  Options made_surface, no_view, few_neighbors = discOptions (), few_iterations = discOptions (),
+                                 view, short_edges, many_points, normals, all_points;
   made_surface.topology = Topology::SURFACE;
   no_view.view.use = ViewUse::NEVER;
   few_neighbors.neighbors.k = 5;
   few_iterations.disc.solver.method = Solver::GAUSS_SEIDEL;
   few_iterations.disc.solver.max_iterations = 10;
+  view.view.use = ViewUse::GIVEN; // from the origin
+  short_edges.trimming.maximum_edge_length = 1e-3;
+  many_points.trimming.minimum_component_size = 1 << 20;
+  normals.facing = Facing::NORMALS;
+  all_points.remove_outliers = false;
   const struct
   {
     RunStatus status;
@@ -91,7 +105,22 @@ TEST (RunStatus, OfRunsThatFail)
       {RunStatus::INVALID_LOOP, "point 10", disc, withLoop ({0, 10, 20, 10})},
       {RunStatus::INVALID_LOOP, std::to_string (size), disc, withLoop ({0, 10, 20, size})},
       {RunStatus::INVALID_OPTION, "neighbors must be from 6 to 200", disc, few_neighbors},
-      {RunStatus::NOT_CONVERGED, "Gauss-Seidel", disc, few_iterations}};
+      {RunStatus::NOT_CONVERGED, "Gauss-Seidel", disc, few_iterations},
+      {RunStatus::NOT_A_DISC, "folded", torus, around_cells},
+      {RunStatus::DEGENERATE, "the cloud is no surface: 4000 points", randomPoints (4000, 1), {}},
+      {RunStatus::DEGENERATE, "point 720", joined (torus, {{3.4e38, 0, 0}}), all_points},
+      {RunStatus::DEGENERATE,
+       "double precision",
+       joined (torus, placed (disc, {0, 0, 0}, 1e30)),
+       {}},
+      {RunStatus::DEGENERATE,
+       "all that there were, were cut off as asked for (edges longer than 0.001 units of the "
+       "cloud)",
+       disc, short_edges},
+      {RunStatus::DEGENERATE, "as asked for (components of fewer than 1048576 points)", disc,
+       many_points},
+      {RunStatus::INVALID_OPTION, "viewpoint", on_ray, view},
+      {RunStatus::INVALID_OPTION, "have no normals", disc, normals}};
   for (const auto& failure : failures)
     expectFailure (reconstruct (asInput (failure.points), failure.options), failure.status,
                    failure.why);

@@ -224,13 +224,11 @@ using Lists = std::vector<std::vector<Index>>;
 CsrLists
 flatten (const Lists& lists)
 {
-  CsrLists flat;
-  flat.offsets.push_back (0);
-  for (const auto& list : lists) {
-    flat.ids.insert (flat.ids.end (), list.begin (), list.end ());
-    flat.offsets.push_back (static_cast<Index> (flat.ids.size ()));
-  }
-  return flat;
+  return makeCsrLists (lists.size (), [&] (auto&& emit) {
+    for (std::size_t row = 0; row < lists.size (); ++row)
+      for (const Index id : lists[row])
+        emit (row, id);
+  });
 }
 
 // The definition instead of the algorithm: follows the rows until nothing changes.

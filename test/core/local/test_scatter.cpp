@@ -174,13 +174,5 @@ TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
   }
 }
 
-TEST (Scatter, ACloudOfNothingElseIsDegenerate)
-{
-  const Report report = reportOn (strewn (Strewn::BOX, 4000, 1), ScatterPolicy::AUTO);
-  EXPECT_EQ (report.status, RunStatus::DEGENERATE);
-  EXPECT_NE (report.message.find ("the cloud is no surface: 4000 points"), std::string::npos)
-      << report.message;
-}
-
 } // namespace
 } // namespace pcl::floater

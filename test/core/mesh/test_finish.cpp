@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The insertion of missing points, and what the end of a mesh repairs or refuses.
+// The insertion of missing points, and what the end of a mesh repairs.
 #include "mesh/finish.h"
 
 #include "floater/planar_delaunay.h"
@@ -73,20 +73,6 @@ TEST (Finish, NoiseOfStackedPointsIsRepaired)
   EXPECT_GT (left.statistics.stacked_points, 2000U);
   EXPECT_GT (left.check.self_intersections, 100U);
   EXPECT_LT (2 * repaired.check.self_intersections, left.check.self_intersections);
-}
-
-TEST (Finish, ATorusLaidOutAsADiscIsRefused)
-{
-  constexpr Index AROUND = 60;
-  const Positions positions = torus (AROUND, 24).positions;
-  Options options;
-  options.disc.boundary.loop = {0,          1,     2, AROUND + 2, 2 * AROUND + 2, 2 * AROUND + 1,
-                                2 * AROUND, AROUND}; // around a square of 2 x 2 cells
-  options.topology = Topology::DISC;
-  const Result result = reconstruct (asInput (positions), options);
-  EXPECT_EQ (result.report.status, RunStatus::NOT_A_DISC);
-  EXPECT_NE (result.report.message.find ("folded"), std::string::npos) << result.report.message;
-  EXPECT_TRUE (result.triangles.empty ());
 }
 
 } // namespace

@@ -36,10 +36,7 @@ TEST (TwoSides, OfABodyAreItsInsideAndItsOutside)
   const Place place = placeOf (evenSphere (300));
   const RemadePlace made = remakePlace (place, 1);
   EXPECT_TRUE (made.is_right);
-  const MeshTopology topology = topologyOf (made.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.euler, 2);
-  EXPECT_EQ (topology.loops.size (), 0U);
+  expectTopology (made.triangles, 300, 1, 2, 0);
   double volume = 0.0;
   for (const Triangle& t : made.triangles)
     volume += place.positions[t[0]].dot (place.positions[t[1]].cross (place.positions[t[2]])) / 6.0;
@@ -108,12 +105,7 @@ struct Spheres
   {
     EXPECT_GT (remake ().points (), 0U);
     EXPECT_TRUE (crossing ().empty ());
-    const MeshTopology topology = topologyOf (mesh.triangles);
-    EXPECT_TRUE (topology.manifold);
-    EXPECT_EQ (topology.vertices, 800U);
-    EXPECT_EQ (topology.components, 2U);
-    EXPECT_EQ (topology.euler, 4);
-    EXPECT_EQ (topology.loops.size (), 0U);
+    expectTopology (mesh.triangles, 800, 2, 4, 0);
   }
 };
 
@@ -143,11 +135,9 @@ TEST (Remaking, MakesALargeZoneAnewUnlessItIsNoise)
     Spheres spheres (0.1, 3000, true);
     for (Index p = 0; p < 5900; p += 25)
       exchange (spheres.mesh, p, p + 21);
-    std::mt19937 random (5);
-    std::normal_distribution<double> noise (0.0, 0.05);
+    RandomStream random (5);
     for (Eigen::Vector3d& position : spheres.positions)
-      for (int k = 0; is_noisy && k < 3; ++k)
-        position[k] += noise (random);
+      position += (is_noisy ? 0.05 : 0.0) * normalVector (random);
     const std::vector<Triangle> before = spheres.mesh.triangles;
     const RemadeZones remade = spheres.remake ();
     EXPECT_EQ (remade.is_noise, is_noisy);
@@ -296,11 +286,7 @@ TEST (NeckCutting, CutsBridgesBetweenSheets)
     EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), {}, 1),
                places.size ());
     expectConsistent (sheets.mesh);
-    const MeshTopology topology = topologyOf (sheets.mesh.triangles);
-    EXPECT_EQ (topology.euler, 2);
-    EXPECT_EQ (topology.components, 2U);
-    EXPECT_EQ (topology.vertices, sheets.positions.size ());
-    EXPECT_EQ (topology.loops.size (), 2U);
+    expectTopology (sheets.mesh.triangles, sheets.positions.size (), 2, 2, 2);
   }
 }
 

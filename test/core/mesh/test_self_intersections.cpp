@@ -153,22 +153,11 @@ TEST (SelfIntersections, AreInTheReportWithPlaces)
              std::string::npos);
 }
 
+// The longest edge, also in spacings, and the smallest component.
 TrimmingOptions
-longestEdge (double length)
+limits (double length, double spacings = 0.0, int points = 0)
 {
-  return {length, 0.0, false, 0};
-}
-
-TrimmingOptions
-longestRatio (double spacings)
-{
-  return {0.0, spacings, false, 0};
-}
-
-TrimmingOptions
-smallestComponent (int points)
-{
-  return {0.0, 0.0, false, points};
+  return {length, spacings, false, points};
 }
 
 // Trims a mesh whose spacing is 0.1, and whose unit of length is 10 units of the cloud.
@@ -209,20 +198,20 @@ longestEdgeOf (const Positions& positions, const std::vector<Triangle>& triangle
 TEST (Trimming, NothingByDefaultOrIfAllIsWithinTheLimits)
 {
   EXPECT_FALSE (asksForTrimming ({}));
-  EXPECT_TRUE (asksForTrimming (longestEdge (1e-9)));
-  EXPECT_TRUE (asksForTrimming (longestRatio (3.0)));
-  EXPECT_TRUE (asksForTrimming (smallestComponent (1)));
+  EXPECT_TRUE (asksForTrimming (limits (1e-9)));
+  EXPECT_TRUE (asksForTrimming (limits (0.0, 3.0)));
+  EXPECT_TRUE (asksForTrimming (limits (0.0, 0.0, 1)));
   Mesh mesh = sheet (5);
   const double longest = longestEdgeOf (mesh.positions, mesh.triangles); // of every triangle
-  for (const TrimmingOptions& options : {TrimmingOptions (), longestEdge (10.0 * longest),
-                                         longestRatio (1.42), smallestComponent (36)})
+  for (const TrimmingOptions& options :
+       {TrimmingOptions (), limits (10.0 * longest), limits (0.0, 1.42), limits (0.0, 0.0, 36)})
     EXPECT_EQ (trim (mesh, options).triangles, 0U);
-  EXPECT_EQ (trim (mesh, longestEdge (9.99 * longest)).triangles, 50U);
+  EXPECT_EQ (trim (mesh, limits (9.99 * longest)).triangles, 50U);
 }
 
 TEST (Trimming, AGapBecomesABoundary)
 {
-  for (const TrimmingOptions& options : {longestEdge (3.0), longestRatio (3.0)}) {
+  for (const TrimmingOptions& options : {limits (3.0), limits (0.0, 3.0)}) {
     Mesh mesh = sheet (10);
     for (Eigen::Vector3d& p : mesh.positions)
       p.x () += p.x () > 0.55 ? 0.5 : 0.0;
@@ -230,10 +219,7 @@ TEST (Trimming, AGapBecomesABoundary)
     EXPECT_EQ (trimming.triangles, 20U);
     EXPECT_TRUE (trimming.points.empty ());
     EXPECT_EQ (trimming.components, 0U);
-    const MeshTopology topology = topologyOf (mesh.triangles);
-    EXPECT_EQ (topology.components, 2U);
-    EXPECT_EQ (topology.loops.size (), 2U);
-    EXPECT_EQ (topology.vertices, 121U);
+    expectTopology (mesh.triangles, 121, 2, 2, 2);
   }
 }
 
@@ -261,7 +247,7 @@ TEST (Trimming, WhateverIsCutTheMeshStaysAManifold)
         for (std::size_t p = 0; p < mesh.positions.size (); ++p)
           if (random.below (one_in) == 0)
             mesh.positions[p].z () += 20.0 + static_cast<double> (5 * p);
-        trim (mesh, longestEdge (10.0));
+        trim (mesh, limits (10.0));
         EXPECT_LE (longestEdgeOf (mesh.positions, mesh.triangles), 1.0);
         EXPECT_GT (mesh.triangles.size (), one_in < 30 ? 0 : whole.triangles.size () / 2);
       }
@@ -270,30 +256,14 @@ TEST (Trimming, WhateverIsCutTheMeshStaysAManifold)
 TEST (Trimming, SmallComponents)
 {
   Mesh mesh = beside (sheet (4), tetrahedron ());
-  EXPECT_EQ (trim (mesh, smallestComponent (4)).triangles, 0U);
-  Trimming trimming = trim (mesh, smallestComponent (5));
+  EXPECT_EQ (trim (mesh, limits (0.0, 0.0, 4)).triangles, 0U);
+  Trimming trimming = trim (mesh, limits (0.0, 0.0, 5));
   EXPECT_EQ (trimming.triangles, 4U);
   EXPECT_EQ (trimming.components, 1U);
   EXPECT_EQ (trimming.points, (std::vector<Index>{25, 26, 27, 28}));
-  trimming = trim (mesh, smallestComponent (26));
+  trimming = trim (mesh, limits (0.0, 0.0, 26));
   EXPECT_EQ (trimming.components, 1U);
   EXPECT_TRUE (mesh.triangles.empty ());
-}
-
-TEST (Trimming, NothingLeftIsAFailure)
-{
-  const std::pair<TrimmingOptions, const char*> cases[]{
-      {longestEdge (1e-3), "as asked for (edges longer than 0.001 units of the cloud)"},
-      {smallestComponent (1 << 20), "as asked for (components of fewer than 1048576 points)"}};
-  for (const auto& [trimming, cause] : cases) {
-    Options options;
-    options.trimming = trimming;
-    const Result result = reconstruct (asInput (disc (0.1, 1).positions), options);
-    EXPECT_EQ (result.report.status, RunStatus::DEGENERATE);
-    EXPECT_NE (result.report.message.find ("no triangle is left"), std::string::npos);
-    EXPECT_NE (result.report.message.find (cause), std::string::npos) << result.report.message;
-    EXPECT_TRUE (result.triangles.empty ());
-  }
 }
 
 } // namespace

@@ -105,26 +105,17 @@ TEST (GrossOutliers, LeaveTheMeshAsItIs)
   }
 }
 
-TEST (GrossOutliers, StayIfOutliersAreToStayOrAreAQuarter)
+TEST (GrossOutliers, StayIfOutliersAreToStay)
 {
   Options options;
   options.remove_outliers = false;
   const Positions torus = surface (SurfaceKind::TORUS, 3000);
-  const Result failed =
-      reconstruct (asInput (joined (torus, Positions{{LARGEST_FLOAT, 0, 0}})), options);
-  EXPECT_EQ (failed.report.status, RunStatus::DEGENERATE);
-  EXPECT_NE (failed.report.message.find ("point 3000"), std::string::npos);
-  EXPECT_TRUE (failed.triangles.empty ());
   // Double precision can hold these.
   const Result result = meshOf (joined (torus, {{1e8, 2e8, 0}, {-1e10, 0, 1e9}}), options);
   const MeshTopology topology = topologyOf (result.triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_GE (topology.vertices, 3000U);
   EXPECT_TRUE (result.report.outliers.empty ());
-  const Positions far = placed (surface (SurfaceKind::TORUS, 1800), {0, 0, 0}, 1e30);
-  const Result quarter = reconstruct (asInput (joined (torus, far)), {});
-  EXPECT_EQ (quarter.report.status, RunStatus::DEGENERATE);
-  EXPECT_NE (quarter.report.message.find ("double precision"), std::string::npos);
 }
 
 // The outliers in cloud indices.

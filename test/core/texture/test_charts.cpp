@@ -158,18 +158,14 @@ TEST (ChartLayout, RefinedForOtherPositions)
 // too large for that, it has no layout.
 TEST (ChartLayout, NothingLiesAboveItself)
 {
-  const Mesh stairs = grid (
-      60, 4, 61 * 5, [] (Index x, Index y) { return y * 61 + x; },
-      [] (Index x, Index y) {
-        const double angle = 3.0 * PI * x / 60.0, radius = 2.0 - 0.3 * y;
-        return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.02 * x);
-      });
-  const Mesh roll = grid (
-      7, 79, 8 * 80, [] (Index x, Index y) { return y * 8 + x; },
-      [] (Index x, Index y) {
-        const double angle = 0.2 * y, radius = 1.0 + 0.1 * angle;
-        return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.2 * x);
-      });
+  const Mesh stairs = cells (60, 4, [] (Index x, Index y) {
+    const double angle = 3.0 * PI * x / 60.0, radius = 2.0 - 0.3 * y;
+    return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.02 * x);
+  });
+  const Mesh roll = cells (7, 79, [] (Index x, Index y) {
+    const double angle = 0.2 * y, radius = 1.0 + 0.1 * angle;
+    return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.2 * x);
+  });
   DescentLimits limits;
   limits.most_on_circle = roll.triangles.size ();
   for (const ChartLayout& layout : {layOut (stairs), layOut (roll, limits)}) {

@@ -202,18 +202,6 @@ TEST (ViewMethod, AViewThatLeavesManyPointsOutIsTold)
   EXPECT_TRUE (warns (report, "at the given viewpoint"));
 }
 
-TEST (ViewMethod, AllPointsOnOneRayGiveNoMesh)
-{
-  Positions points;
-  for (int i = 1; i < 10; ++i)
-    points.emplace_back (0.0, 0.0, i);
-  points.emplace_back (0.0, 1e-3, 5.0);
-  const Result result = reconstruct (points, seenFrom (Eigen::Vector3d::Zero ()));
-  EXPECT_EQ (result.report.status, RunStatus::INVALID_OPTION);
-  EXPECT_NE (result.report.message.find ("viewpoint"), std::string::npos);
-  EXPECT_TRUE (result.triangles.empty ());
-}
-
 constexpr double ELEVATION = 1.1 * DEGREE; // between rings
 constexpr double NEVER = std::numeric_limits<double>::infinity ();
 
