@@ -43,6 +43,14 @@ generated (const SurfaceSpec& spec)
   return made;
 }
 
+/// With sharp edges of this length.
+inline KnownSurface
+sharp (KnownSurface surface, double length)
+{
+  surface.sharp_length = length;
+  return surface;
+}
+
 // ---- sheets
 
 using Lift = std::function<Eigen::Vector3d (const Eigen::Vector2d&)>;
@@ -81,15 +89,13 @@ inline KnownSurface
 foldedSheet (std::uint64_t seed, bool ragged = false)
 {
   constexpr double HEIGHT = 30.0;
-  KnownSurface made = sheet (
-      {resample (rectangle (50.0, HEIGHT, {-25.0, 0.0}), 1.0)},
-      [] (const Eigen::Vector2d& p) {
-        return Eigen::Vector3d (std::abs (p.x ()) * std::cos (PI / 12.0), p.y (),
-                                p.x () * std::sin (PI / 12.0));
-      },
-      seed, ragged);
-  made.sharp_length = HEIGHT;
-  return made;
+  const Lift folded = [] (const Eigen::Vector2d& p) {
+    return Eigen::Vector3d (std::abs (p.x ()) * std::cos (PI / 12.0), p.y (),
+                            p.x () * std::sin (PI / 12.0));
+  };
+  return sharp (
+      sheet ({resample (rectangle (50.0, HEIGHT, {-25.0, 0.0}), 1.0)}, folded, seed, ragged),
+      HEIGHT);
 }
 
 /// A round sheet of radius 20 folded over along a line beside its middle.
@@ -204,10 +210,11 @@ scanLines (double apart, double noise, std::uint64_t seed)
   return made;
 }
 
-/// A sheet with waves of a height, or 0: flat. Its rows are `apart` steps apart, and the points in a
-/// row are strewn: steps are random, with a mean of one, so that some points nearly coincide.
+/// A sheet with waves of a height, or 0: flat. Its rows are `apart` steps apart, and each begins anywhere. In a
+/// row, steps differ from one by up to `spread`; or they are random with a mean of one, so that some points
+/// nearly coincide.
 inline KnownSurface
-strewnLines (double apart, double height, std::uint64_t seed)
+strewnLines (double apart, double height, std::uint64_t seed, double spread = 1.0)
 {
   constexpr int ROWS = 20;
   constexpr double LENGTH = 200.0;
@@ -215,9 +222,12 @@ strewnLines (double apart, double height, std::uint64_t seed)
   KnownSurface made;
   made.loops = 1;
   made.is_even = false;
+  const auto step = [&] {
+    const double number = random.uniform ();
+    return spread < 1.0 ? 1.0 + spread * (2.0 * number - 1.0) : -std::log1p (-number);
+  };
   for (int row = 0; row < ROWS; ++row)
-    for (double x = -std::log1p (-random.uniform ()); x < LENGTH;
-         x -= std::log1p (-random.uniform ())) {
+    for (double x = spread < 1.0 ? random.uniform () : step (); x < LENGTH; x += step ()) {
       const double y = row * apart;
       made.points.emplace_back (x, y, height * std::sin (x / 30.0) * std::cos (y / 35.0));
     }
@@ -290,19 +300,6 @@ prism (const std::vector<Outline>& outlines, double height, std::uint64_t seed,
     return {p.x (), p.y (), height * random.uniform ()};
   };
   made.points = throwDarts (edges, made.area, throwDart, seed);
-  return made;
-}
-
-/// A prism over a triangle with angles of 30, 75 and 75 degrees. Points on both faces beside the
-/// sharp edge keep their distance from each other, too.
-inline KnownSurface
-wedge (std::uint64_t seed)
-{
-  constexpr double SIDE = 32.0, HEIGHT = 20.0;
-  KnownSurface made =
-      prism ({{{0, 0}, {SIDE, 0}, {SIDE * std::cos (PI / 6.0), SIDE * std::sin (PI / 6.0)}}},
-             HEIGHT, seed);
-  made.sharp_length = HEIGHT;
   return made;
 }
 

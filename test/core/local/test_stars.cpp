@@ -6,7 +6,7 @@
 #include "local/planar_star.h"
 #include "local/planes.h"
 #include "points/neighbors.h"
-#include "samples.h"
+#include "surface_samples.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -20,34 +20,19 @@ namespace pcl::floater {
 namespace {
 using namespace samples;
 
-// Points of two parallel sheets of side 1, `gap` spacings apart. Their heights have opposite signs.
-Positions
-twoSheets (double gap)
-{
-  const double step = 1.0 / 30.0;
-  Positions points;
-  for (const int side : {-1, 1}) {
-    const Sheet sheet = fillOutlines ({resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step,
-                                      0.35, static_cast<std::uint64_t> (10 + side));
-    for (const Eigen::Vector3d& p : sheet.positions)
-      points.emplace_back (p.x (), p.y (), 0.5 * side * gap * step);
-  }
-  return points;
-}
-
-// Share of star neighbours on the other sheet; of points 2.5 spacings inside their sheet, so that they have neighbours
-// on all sides.
+// Share of star neighbours on the other one of parallel sheets; of points 2.5 spacings inside their sheet, so that they
+// have neighbours on all sides.
 double
-shareOfStrays (const Neighborhoods& sheets)
+shareOfStrays (const Neighborhoods& sheets, double gap)
 {
   double strays = 0.0, all = 0.0;
   for (Index p = 0; p < sheets.points.size (); ++p) {
     const Eigen::Vector3d place = sheets.points.inCloud (p);
-    if ((place.head<2> ().array () - 0.5).abs ().maxCoeff () > 0.5 - 2.5 / 30.0)
+    if ((place.head<2> ().array () - 18.2).abs ().maxCoeff () > 15.2)
       continue;
     for (const Index q : sheets.geometry.stars.neighbors.row (p)) {
       all += 1.0;
-      strays += place.z () * sheets.points.inCloud (q).z () < 0.0 ? 1.0 : 0.0;
+      strays += std::abs (place.z () - sheets.points.inCloud (q).z ()) > 0.5 * gap ? 1.0 : 0.0;
     }
   }
   return strays / all;
@@ -105,6 +90,7 @@ TEST (TangentPlanes, OfANoisyPlane)
   EXPECT_LT (sum / static_cast<double> (plane.size ()), 0.03);
 }
 
+// The filter leaves a single sheet alone.
 TEST (Stars, OpenAtTheBorderOnly)
 {
   const Sheet sheet = disc (0.05, 4);
@@ -114,30 +100,24 @@ TEST (Stars, OpenAtTheBorderOnly)
     const bool border = made.points.cloud_index[p] < sheet.border;
     EXPECT_EQ (made.geometry.stars.open[p] != 0, border);
   }
+  const Stars& filtered = made.geometry.stars;
+  const Stars plain = makeNeighborhoods (sheet.positions, false).geometry.stars;
+  EXPECT_EQ (filtered.neighbors.offsets, plain.neighbors.offsets);
+  EXPECT_EQ (filtered.neighbors.ids, plain.neighbors.ids);
+  EXPECT_EQ (filtered.open, plain.open);
 }
 
 TEST (Stars, TheFilterKeepsSheetsApart)
 {
   for (const double gap : {2.0, 1.7}) {
-    const Positions points = twoSheets (gap);
-    const Neighborhoods filtered = makeNeighborhoods (points, true);
+    const Neighborhoods filtered = makeNeighborhoods (parallelSheets (gap, 10).points, true);
     expectSane (filtered);
-    EXPECT_LT (shareOfStrays (filtered), 0.001);
+    EXPECT_EQ (shareOfStrays (filtered, gap), 0.0);
   }
   // At 2 spacings it is enough that offsets keep their length; nearer sheets need the filter.
-  const Neighborhoods plain = makeNeighborhoods (twoSheets (1.7), false);
+  const Neighborhoods plain = makeNeighborhoods (parallelSheets (1.7, 10).points, false);
   expectSane (plain);
-  EXPECT_GT (shareOfStrays (plain), 0.004);
-}
-
-TEST (Stars, TheFilterLeavesASingleSheetAlone)
-{
-  const Sheet sheet = disc (0.05, 5);
-  const Stars filtered = makeNeighborhoods (sheet.positions, true).geometry.stars;
-  const Stars plain = makeNeighborhoods (sheet.positions, false).geometry.stars;
-  EXPECT_EQ (filtered.neighbors.offsets, plain.neighbors.offsets);
-  EXPECT_EQ (filtered.neighbors.ids, plain.neighbors.ids);
-  EXPECT_EQ (filtered.open, plain.open);
+  EXPECT_GT (shareOfStrays (plain, 1.7), 0.002);
 }
 
 TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
@@ -184,28 +164,6 @@ TEST (LocalGeometry, CopiesRowsOfSomePoints)
       EXPECT_EQ (to.stars.offsets_in_plane[first + i],
                  source.stars.offsets_in_plane[source.stars.neighbors.offsets[p] + i]);
   }
-}
-
-// Lines on a wavy sheet. Where they are half as far apart as the neighbours reach, or as far, a few
-// neighbours lie on one of the lines beside.
-TEST (Stars, LinesOfAnyDistanceMakeOneSheet)
-{
-  for (const double apart : {3.0, 5.0, 7.0, 8.0, 8.5, 9.0, 9.5, 10.0, 10.5, 12.0})
-    for (const double jitter : {0.0, 0.4}) {
-      RandomStream random (1);
-      Positions points;
-      for (int line = 0; line < 16; ++line) {
-        const double y = apart * line, begin = random.uniform ();
-        for (int i = 0; i < 150; ++i) {
-          const double x = begin + i + jitter * (2.0 * random.uniform () - 1.0);
-          points.emplace_back (x, y, 20.0 * std::sin (x / 30.0) * std::cos (y / 35.0));
-        }
-      }
-      const Report report = meshOf (points).report;
-      EXPECT_EQ (report.check.components, 1U) << apart << " " << jitter;
-      EXPECT_EQ (report.check.loops.size (), 1U) << apart << " " << jitter;
-      EXPECT_EQ (report.check.self_intersections, 0U) << apart << " " << jitter;
-    }
 }
 
 using Neighbors = std::vector<PlanarNeighbor>;

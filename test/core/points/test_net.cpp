@@ -5,7 +5,7 @@
 
 #include "points/neighbors.h"
 #include "points/noise.h"
-#include "samples.h"
+#include "surface_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -219,11 +219,7 @@ TEST (Noise, ThinSheetsAreNone)
 {
   for (const double gap : {1.5, 2.0, 3.0, 5.0}) {
     SCOPED_TRACE (gap);
-    RandomStream random (4); // one over the other, their points not
-    const Positions sheets =
-        joined (jitteredGrid (60, 60, 1.0, 0.5, random),
-                placed (jitteredGrid (60, 60, 1.0, 0.5, random), {0.0, 0.0, gap}));
-    EXPECT_FALSE (reconstruct (asInput (sheets), {}).report.denoised);
+    EXPECT_FALSE (reconstruct (asInput (parallelSheets (gap, 4).points), {}).report.denoised);
   }
 }
 
@@ -273,12 +269,7 @@ TEST (Projection, TakesMostOfTheNoiseOut)
 
 TEST (Projection, AnotherSheetDoesNotPull)
 {
-  RandomStream random (2);
-  Positions sheets; // 8 spacings apart, each with noise of 0.4
-  for (const double z : {0.0, 8.0})
-    for (const Eigen::Vector3d& p : jitteredGrid (50, 50, 1.0, 0.2, random))
-      sheets.emplace_back (p.x (), p.y (), z + 0.4 * random.normal ());
-  const Cloud cloud (sheets);
+  const Cloud cloud (withNoise (parallelSheets (8.0, 2), 0.4, 3).points);
   EXPECT_GT (cloud.noisyShare (), 0.6);
   for (const Eigen::Vector3d& projected : cloud.projected ()) {
     const double z = (cloud.points.centre + cloud.points.scale * projected).z ();
