@@ -76,11 +76,7 @@ trianglesOf (const Polygons& polygons)
 inline void
 expectDisc (const Triangles& triangles, std::size_t points, std::size_t border)
 {
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  for (const auto& [a, b, c] : triangles)
-    corners.push_back ({static_cast<std::uint32_t> (a), static_cast<std::uint32_t> (b),
-                        static_cast<std::uint32_t> (c)});
-  const samples::MeshTopology topology = samples::topologyOf (corners);
+  const samples::MeshTopology topology = samples::topologyOf (triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, points);
   EXPECT_EQ (topology.euler, 1);

@@ -44,18 +44,16 @@ TEST (FloaterClass, IsDropInThroughTheBaseClasses)
     pcl::PolygonMesh mesh;
     mesh.polygons.resize (5);
     surface->reconstruct (mesh);
-    EXPECT_EQ (mesh.header.frame_id, "scanner");
-    EXPECT_EQ (mesh.header.seq, 7U);
-    EXPECT_EQ (mesh.header.stamp, 1234567U);
+    EXPECT_EQ (mesh.header, cloud->header);
     EXPECT_EQ (mesh.cloud.data, whole.data);
     EXPECT_EQ (mesh.cloud.width, whole.width);
-    EXPECT_EQ (mesh.cloud.header.frame_id, "scanner");
+    EXPECT_EQ (mesh.cloud.header, cloud->header);
     EXPECT_EQ (trianglesOf (mesh.polygons), expected);
   }
   Cloud points;
   Polygons polygons (5);
   reconstruction->reconstruct (points, polygons);
-  EXPECT_EQ (points.header.frame_id, "scanner");
+  EXPECT_EQ (points.header, cloud->header);
   ASSERT_EQ (points.size (), cloud->size ());
   for (std::size_t i = 0; i < points.size (); ++i)
     EXPECT_EQ (points[i].getVector3fMap (), (*cloud)[i].getVector3fMap ());

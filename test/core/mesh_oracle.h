@@ -21,8 +21,9 @@ struct MeshTopology
   std::vector<std::vector<Index>> loops;
 };
 
-inline MeshTopology
-topologyOf (const std::vector<Triangle>& triangles)
+template <typename Triangles>
+MeshTopology
+topologyOf (const Triangles& triangles)
 {
   MeshTopology topology;
   std::map<std::pair<Index, Index>, std::size_t> directed;
@@ -33,11 +34,10 @@ topologyOf (const std::vector<Triangle>& triangles)
       p = parent[p] = parent[parent[p]];
     return p;
   };
-  for (const Triangle& t : triangles)
-    for (int i = 0; i < 3; ++i) {
-      const Index a = t[static_cast<std::size_t> (i)];
-      const Index b = t[static_cast<std::size_t> ((i + 1) % 3)];
-      const Index c = t[static_cast<std::size_t> ((i + 2) % 3)];
+  for (const auto& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = static_cast<Index> (t[i]), b = static_cast<Index> (t[(i + 1) % 3]),
+                 c = static_cast<Index> (t[(i + 2) % 3]);
       topology.manifold = topology.manifold && a != b && ++directed[{a, b}] == 1;
       parent.emplace (a, a);
       parent.emplace (b, b);

@@ -53,6 +53,12 @@ permutation (std::size_t count, std::uint64_t seed)
   return order;
 }
 
+inline double
+between (RandomStream& random, double low, double high)
+{
+  return low + (high - low) * random.uniform ();
+}
+
 /// Each coordinate from 0 to 1.
 inline Eigen::Vector3d
 uniformVector (RandomStream& random)
@@ -164,15 +170,13 @@ struct Neighborhoods
 };
 
 inline Neighborhoods
-makeNeighborhoods (const Positions& positions, bool filter_sheets = true, int threads = 1)
+makeNeighborhoods (const Positions& positions, bool filter_sheets = true)
 {
-  Neighborhoods made;
-  made.points = makePoints (positions, indices (positions.size ()), threads);
   const StarSettings settings{filter_sheets};
-  made.geometry = makeLocalGeometry (
-      made.points,
-      fitLocalPlanes (made.points, findNeighbors (made.points, {}, threads), {}, settings, threads),
-      settings, threads);
+  Neighborhoods made{makePoints (positions, indices (positions.size ()), 1), {}};
+  LocalPlanes planes =
+      fitLocalPlanes (made.points, findNeighbors (made.points, {}, 1), {}, settings, 1);
+  made.geometry = makeLocalGeometry (made.points, std::move (planes), settings, 1);
   return made;
 }
 
@@ -262,12 +266,13 @@ meshOf (const Positions& positions, const Options& options = {})
   return result;
 }
 
-/// The default options, but always with the method of TW 385.
+/// The default options, but always with the method of TW 385; and a loop, if it is given.
 inline Options
-discOptions ()
+discOptions (const std::vector<Index>& loop = {})
 {
   Options options;
   options.topology = floater::Topology::DISC;
+  options.disc.boundary.loop = loop;
   return options;
 }
 

@@ -203,31 +203,30 @@ courtyard ()
           {Eigen::Vector3d (-9.1, -6.1, -2.0), Eigen::Vector3d (14.1, 8.1, 4.0)}};
 }
 
-/// A scan by 32 rings of a yard of 80 by 80: sloping ground, posts, and balls that rest on it. The
-/// sensor stands 1.2 to 2.6 above the ground, near the middle. About 40,000 points, not turned.
+/// A scan of a yard of `width` by `width`: sloping ground, and around the sensor posts, and balls that rest on
+/// it. The sensor stands 1.2 to 2.6 above the ground, up to `off` from the middle.
 inline Scan
-scanYard (DepthNoise noise, std::uint64_t seed)
+scanYard (double width, double off, bool is_dense, std::uint64_t seed)
 {
   RandomStream random (seed);
-  const auto between = [&random] (double least, double most) {
-    return least + (most - least) * random.uniform ();
-  };
-  const Eigen::Vector3d slope (between (-0.05, 0.05), between (-0.05, 0.05), 0.0);
-  Scene yard{{{Eigen::Vector3d::UnitZ () - slope, 0.0}},
-             {},
-             {Eigen::Vector3d (-40.0, -40.0, -40.0), Eigen::Vector3d (40.0, 40.0, 8.0)}};
+  const Eigen::Vector3d slope (between (random, -0.05, 0.05), between (random, -0.05, 0.05), 0.0);
+  const Eigen::Vector3d corner (0.5 * width, 0.5 * width, 8.0);
+  Scene yard{{{Eigen::Vector3d::UnitZ () - slope, 0.0}}, {}, {-corner, corner}};
+  Eigen::Vector3d place (between (random, -off, off), between (random, -off, off), 0.0);
+  place.z () = slope.dot (place) + between (random, 1.2, 2.6);
   for (int i = 0; i < 8; ++i) {
-    const double angle = between (0.0, 2.0 * PI), distance = between (5.0, 25.0);
-    Eigen::Vector3d foot (distance * std::cos (angle), distance * std::sin (angle), 0.0);
-    foot.z () = slope.dot (foot);
+    const double angle = between (random, 0.0, 2.0 * PI), distance = between (random, 5.0, 25.0);
+    Eigen::Vector3d foot =
+        place + distance * Eigen::Vector3d (std::cos (angle), std::sin (angle), 0.0);
     const bool is_post = i < 4;
-    const double radius = is_post ? between (0.1, 0.6) : between (1.0, 4.0);
-    if (!is_post)
-      foot.z () += radius;
+    const double radius = is_post ? between (random, 0.1, 0.6) : between (random, 1.0, 4.0);
+    foot.z () = slope.dot (foot) + (is_post ? 0.0 : radius);
     yard.things.push_back ({foot, radius, is_post});
   }
-  const Eigen::Vector3d place{between (-2.0, 2.0), between (-2.0, 2.0), between (1.2, 2.6)};
-  return castRays (yard, raysInRings (place, 32, 1800, -25.0, 35.0 / 31.0), noise, random);
+  return castRays (yard,
+                   is_dense ? raysInRings (place, 200, 720, -60.0, 0.5)
+                            : raysInRings (place, 32, 1800, -25.0, 35.0 / 31.0),
+                   {is_dense ? 0.0001 : 0.0005, 0.0}, random);
 }
 
 using Direction = std::function<Eigen::Vector3d (const Eigen::Vector3d&)>;

@@ -152,10 +152,7 @@ TEST (PublishedMethod, LeavesEverythingElseOut)
     EXPECT_EQ (result.report.statistics.used_points, used);
     EXPECT_TRUE (warns (result.report, std::to_string (second)));
     EXPECT_TRUE (result.report.parameters.back ().hasNaN ());
-    const MeshTopology topology = topologyOf (result.triangles);
-    EXPECT_TRUE (topology.manifold);
-    EXPECT_EQ (topology.vertices, used);
-    EXPECT_EQ (topology.euler, 1);
+    expectTopology (result.triangles, used, 1, 1, 1);
   }
 }
 
@@ -200,8 +197,7 @@ smallSheet (double height)
 TEST (Choices, MakeTheSameMeshOfAFlatSheet)
 {
   const auto [points, border] = smallSheet (0.0);
-  Options options = discOptions ();
-  options.disc.boundary.loop = indices (border);
+  Options options = discOptions (indices (border));
   const Result expected = reconstruct (asInput (points), options);
   expectDisc (expected, points.size ());
   for (const auto& [neighborhood, kind] : NEIGHBORHOOD_CHOICES)
@@ -217,8 +213,7 @@ TEST (Choices, OfNeighborhoodShowInTheMatrix)
 {
   const auto nonzeros = [] (Neighborhood neighborhood, double radius) {
     const Sheet sheet = smallSheet (0.7);
-    Options options = discOptions ();
-    options.disc.boundary.loop = indices (sheet.border);
+    Options options = discOptions (indices (sheet.border));
     options.neighbors.kind = neighborhood;
     options.neighbors.ball_radius = radius;
     const Statistics statistics =
@@ -236,8 +231,7 @@ TEST (Reconstruct, FewestPoints)
 {
   const Positions square = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}};
   expectDisc (reconstruct (asInput (square), discOptions ()), 4);
-  Options options = discOptions ();
-  options.disc.boundary.loop = {2, 3, 0, 1};
+  const Options options = discOptions ({2, 3, 0, 1});
   const Result given = reconstruct (asInput (square), options);
   expectDisc (given, 4);
   EXPECT_EQ (given.report.loop, options.disc.boundary.loop);

@@ -34,20 +34,6 @@ expectFailure (const Result& result, RunStatus status, const std::string& why)
   EXPECT_TRUE (result.report.loop.empty () || status != RunStatus::NO_BOUNDARY);
 }
 
-Positions
-discAt (const Eigen::Vector3d& place, double radius, std::uint64_t seed)
-{
-  return placed (disc (0.1, seed).positions, place, radius);
-}
-
-Options
-withLoop (std::vector<Index> loop)
-{
-  Options options = discOptions ();
-  options.disc.boundary.loop = std::move (loop);
-  return options;
-}
-
 TEST (RunStatus, OfRunsThatFail)
 {
   Positions line, curve, three_discs;
@@ -56,8 +42,9 @@ TEST (RunStatus, OfRunsThatFail)
   for (int i = 0; i < 120; ++i)
     curve.emplace_back (i, 1e-3 * std::sin (7.0 * i), 1e-3 * std::cos (5.0 * i));
   for (std::uint64_t i = 0; i < 3; ++i)
-    three_discs = joined (three_discs, discAt ({10.0 * static_cast<double> (i), 0, 0}, 1.0, i + 1));
-  const Positions disc = discAt ({0, 0, 0}, 1.0, 3);
+    three_discs = joined (three_discs, placed (samples::disc (0.1, i + 1).positions,
+                                               {10.0 * static_cast<double> (i), 0, 0}));
+  const Positions disc = samples::disc (0.1, 3).positions;
   const auto size = static_cast<Index> (disc.size ());
   Positions apart = curve; // three curves, too far apart for a scan
   for (const double y : {300.0, 600.0})
@@ -68,7 +55,7 @@ TEST (RunStatus, OfRunsThatFail)
   constexpr Index AROUND = 60;
   const Positions torus = samples::torus (AROUND, 12).positions;
   const Options around_cells =
-      withLoop ({0, 1, 2, AROUND + 2, 2 * AROUND + 2, 2 * AROUND + 1, 2 * AROUND, AROUND});
+      discOptions ({0, 1, 2, AROUND + 2, 2 * AROUND + 2, 2 * AROUND + 1, 2 * AROUND, AROUND});
   Options made_surface, no_view, few_neighbors = discOptions (), few_iterations = discOptions (),
                                  view, short_edges, many_points, normals, all_points;
   made_surface.topology = Topology::SURFACE;
@@ -101,9 +88,9 @@ TEST (RunStatus, OfRunsThatFail)
       {RunStatus::NO_BOUNDARY, "closed", surface (SurfaceKind::SPHERE, 3000), discOptions ()},
       {RunStatus::NO_BOUNDARY, "closed", surface (SurfaceKind::TORUS, 3000), discOptions ()},
       {RunStatus::UNREACHABLE, "do not connect", three_discs, discOptions ()},
-      {RunStatus::INVALID_LOOP, "fewer than 3", disc, withLoop ({0, 10})},
-      {RunStatus::INVALID_LOOP, "point 10", disc, withLoop ({0, 10, 20, 10})},
-      {RunStatus::INVALID_LOOP, std::to_string (size), disc, withLoop ({0, 10, 20, size})},
+      {RunStatus::INVALID_LOOP, "fewer than 3", disc, discOptions ({0, 10})},
+      {RunStatus::INVALID_LOOP, "point 10", disc, discOptions ({0, 10, 20, 10})},
+      {RunStatus::INVALID_LOOP, std::to_string (size), disc, discOptions ({0, 10, 20, size})},
       {RunStatus::INVALID_OPTION, "neighbors must be from 6 to 200", disc, few_neighbors},
       {RunStatus::NOT_CONVERGED, "Gauss-Seidel", disc, few_iterations},
       {RunStatus::NOT_A_DISC, "folded", torus, around_cells},

@@ -74,7 +74,7 @@ tetrahedron (Index a, Index b, Index c, Index d)
 // Makes a consensus of bodies, all triangles of body i with votes[i] votes; its manifold part.
 TriangleMesh
 partOf (const std::vector<std::vector<Triangle>>& bodies, const std::vector<std::uint8_t>& votes,
-        std::size_t points)
+        const CsrLists& neighbors, std::size_t smallest = 1)
 {
   Consensus consensus;
   for (std::size_t i = 0; i < bodies.size (); ++i)
@@ -82,9 +82,7 @@ partOf (const std::vector<std::vector<Triangle>>& bodies, const std::vector<std:
       consensus.triangles.push_back (triangle);
       consensus.votes.push_back (votes[i]);
     }
-  CsrLists no_neighbors;
-  no_neighbors.offsets.assign (points + 1, 0);
-  return manifoldPart (std::move (consensus), no_neighbors, 1, 1);
+  return manifoldPart (std::move (consensus), neighbors, smallest, 1);
 }
 
 // Closed fans are walked around: the second one must not be taken for a part of the first.
@@ -96,43 +94,32 @@ TEST (ManifoldPart, KeepsTheClosedFanOfMostVotes)
       return std::count (mesh.triangles.begin (), mesh.triangles.end (), t) == 1;
     });
   };
-  for (const bool is_first : {true, false}) {
-    const TriangleMesh mesh =
-        is_first ? partOf ({first, second}, {3, 2}, 7) : partOf ({first, second}, {2, 3}, 7);
+  const CsrLists no_neighbors{std::vector<Index> (8, 0), {}};
+  for (const std::vector<std::uint8_t>& votes : {std::vector<std::uint8_t>{3, 2}, {2, 3}}) {
+    const TriangleMesh mesh = partOf ({first, second}, votes, no_neighbors);
     EXPECT_TRUE (topologyOf (mesh.triangles).manifold);
     EXPECT_EQ (mesh.triangles.size (), 5); // the other one keeps the triangle away from the point
-    EXPECT_TRUE (holds (mesh, is_first ? first : second));
+    EXPECT_TRUE (holds (mesh, votes[0] > votes[1] ? first : second));
   }
 }
 
 TEST (ManifoldPart, DropsTheTriangleOfFewerVotesAtADoubleEdge)
 {
-  const TriangleMesh mesh = partOf ({{{0, 1, 2}}, {{0, 1, 3}}}, {1, 2}, 4);
+  const TriangleMesh mesh =
+      partOf ({{{0, 1, 2}}, {{0, 1, 3}}}, {1, 2}, {std::vector<Index> (5, 0), {}});
   EXPECT_EQ (mesh.triangles, (std::vector<Triangle>{{0, 1, 3}}));
 }
 
 // A small component beside a larger one is an island, unless it is closed: then it is a body.
 TEST (ManifoldPart, HasNoSmallIslandsButBodies)
 {
-  const std::vector<Triangle> square{{0, 1, 2}, {0, 2, 3}}, body = tetrahedron (4, 5, 6, 7);
-  for (const bool is_closed : {true, false}) {
-    Consensus consensus;
-    consensus.triangles = body;
-    if (!is_closed)
-      consensus.triangles.resize (1);
-    consensus.triangles.insert (consensus.triangles.end (), square.begin (), square.end ());
-    consensus.triangles.push_back ({0, 3, 8});
-    consensus.triangles.push_back ({3, 9, 8});
-    consensus.triangles.push_back ({9, 10, 8});
-    consensus.votes.assign (consensus.triangles.size (), 3);
-    CsrLists neighbors; // only that point 4 is beside point 0
-    neighbors.offsets.assign (5, 0);
-    neighbors.offsets.resize (12, 1);
-    neighbors.ids = {0};
-    const std::size_t all = consensus.triangles.size ();
-    EXPECT_EQ (manifoldPart (std::move (consensus), neighbors, 9, 1).triangles.size (),
-               is_closed ? all : all - 1);
-  }
+  const std::vector<Triangle> island{{4, 5, 6}},
+      body = tetrahedron (4, 5, 6, 7),
+      sheet{{0, 1, 2}, {0, 2, 3}, {0, 3, 8}, {3, 9, 8}, {9, 10, 8}};
+  CsrLists neighbors{std::vector<Index> (5, 0), {0}}; // only that point 4 is beside point 0
+  neighbors.offsets.resize (12, 1);
+  EXPECT_EQ (partOf ({body, sheet}, {3, 3}, neighbors, 9).triangles.size (), 4 + 5);
+  EXPECT_EQ (partOf ({island, sheet}, {3, 3}, neighbors, 9).triangles.size (), 5);
 }
 
 // The points of the lattice of 3 x 3 x 3 whose bits are set.

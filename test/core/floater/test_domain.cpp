@@ -219,29 +219,17 @@ TEST (Domain, StepsAreByLengthByItsRootOrEqual)
   }
 }
 
-using Lists = std::vector<std::vector<Index>>;
-
-CsrLists
-flatten (const Lists& lists)
-{
-  return makeCsrLists (lists.size (), [&] (auto&& emit) {
-    for (std::size_t row = 0; row < lists.size (); ++row)
-      for (const Index id : lists[row])
-        emit (row, id);
-  });
-}
-
 // The definition instead of the algorithm: follows the rows until nothing changes.
 std::vector<std::uint8_t>
-reachableByDefinition (const Lists& rows, const std::vector<Index>& loop)
+reachableByDefinition (const CsrLists& rows, const std::vector<Index>& loop)
 {
-  std::vector<std::uint8_t> reachable (rows.size (), 0);
+  std::vector<std::uint8_t> reachable (rows.rows (), 0);
   for (const Index p : loop)
     reachable[p] = 1;
   for (bool changed = true; changed;) {
     changed = false;
-    for (std::size_t p = 0; p < rows.size (); ++p)
-      for (const Index q : rows[p])
+    for (std::size_t p = 0; p < rows.rows (); ++p)
+      for (const Index q : rows.row (p))
         if (reachable[p] == 0 && reachable[q] != 0) {
           reachable[p] = 1;
           changed = true;
@@ -255,11 +243,13 @@ TEST (Reachability, MatchesItsDefinitionOnRandomGraphs)
   RandomStream random (2);
   for (std::uint32_t round = 0; round < 50; ++round) {
     const std::size_t count = 5 + random.below (60);
-    Lists rows (count);
-    for (auto& list : rows)
+    CsrLists rows{{0}, {}};
+    while (rows.rows () < count) {
       for (std::size_t i = random.below (2 + round % 2); i > 0; --i)
-        list.push_back (static_cast<Index> (random.below (count)));
-    EXPECT_EQ (reachLoop (flatten (rows), {0, 1}, 1), reachableByDefinition (rows, {0, 1}));
+        rows.ids.push_back (static_cast<Index> (random.below (count)));
+      rows.offsets.push_back (static_cast<Index> (rows.ids.size ()));
+    }
+    EXPECT_EQ (reachLoop (rows, {0, 1}, 1), reachableByDefinition (rows, {0, 1}));
   }
 }
 

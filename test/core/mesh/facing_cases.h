@@ -9,14 +9,9 @@
 #include <array>
 
 namespace pcl::floater::facing_cases {
+using samples::between;
 using samples::Mesh;
 using Vector = Eigen::Vector3d;
-
-inline double
-between (RandomStream& random, double low, double high)
-{
-  return low + (high - low) * random.uniform ();
-}
 
 inline Index
 upTo (std::size_t most, RandomStream& random)

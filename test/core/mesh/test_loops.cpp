@@ -43,14 +43,6 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
   }
 }
 
-HoleOptions
-policy (HolePolicy kind)
-{
-  HoleOptions holes;
-  holes.policy = kind;
-  return holes;
-}
-
 // A loop of a length, of a component.
 BoundaryLoop
 loopOf (double length, const LoopJudgement& judgement, Index component = 0)
@@ -84,10 +76,7 @@ TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
     loops[i].spacing = 0.5;
   }
   const auto keptAbove = [&loops] (double largest_hole, LengthUnit length_unit, double unit) {
-    HoleOptions holes = policy (HolePolicy::BY_SIZE);
-    holes.largest_hole = largest_hole;
-    holes.unit = length_unit;
-    return kept (loops, holes, unit);
+    return kept (loops, {HolePolicy::BY_SIZE, 1, largest_hole, length_unit}, unit);
   };
   EXPECT_EQ (keptAbove (14.0, LengthUnit::SPACINGS, 1.0), (Indices{7, 8}));
   EXPECT_EQ (keptAbove (14.0, LengthUnit::SPACINGS, 0.1), (Indices{7, 8}));
@@ -102,15 +91,12 @@ TEST (OpenLoops, PoliciesGoByTheOdds)
   const std::vector<BoundaryLoop> loops = {
       loopOf (30.0, {5.0, 9.0, false}), loopOf (40.0, {3.0, 40.0, false}),
       loopOf (90.0, {-2.0, 20.0, false}), loopOf (8.0, {-4.0, 8.0, false}, 1)};
-  EXPECT_EQ (kept (loops, policy (HolePolicy::AUTO)), (Indices{0, 1}));
-  EXPECT_EQ (kept (loops, policy (HolePolicy::CLOSE_ALL)), Indices{});
-  EXPECT_EQ (kept (loops, policy (HolePolicy::KEEP_LARGEST)), (Indices{1, 3}));
-  HoleOptions count = policy (HolePolicy::KEEP_COUNT);
+  EXPECT_EQ (kept (loops, {HolePolicy::AUTO}), (Indices{0, 1}));
+  EXPECT_EQ (kept (loops, {HolePolicy::CLOSE_ALL}), Indices{});
+  EXPECT_EQ (kept (loops, {HolePolicy::KEEP_LARGEST}), (Indices{1, 3}));
   const std::vector<Indices> by_count = {{}, {0}, {0, 1}, {0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2, 3}};
-  for (int i = 0; i < 6; ++i) {
-    count.kept_loops = i;
-    EXPECT_EQ (kept (loops, count), by_count[static_cast<std::size_t> (i)]);
-  }
+  for (int i = 0; i < 6; ++i)
+    EXPECT_EQ (kept (loops, {HolePolicy::KEEP_COUNT, i}), by_count[static_cast<std::size_t> (i)]);
 }
 
 TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
@@ -118,14 +104,12 @@ TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
   std::vector<BoundaryLoop> loops = {loopOf (30.0, {-1.0, 10.0, false}),
                                      loopOf (90.0, {-2.0, 30.0, false}),
                                      loopOf (40.0, {-3.0, 20.0, false})};
-  HoleOptions count = policy (HolePolicy::KEEP_COUNT);
-  count.kept_loops = 2;
-  EXPECT_EQ (kept (loops, count), (Indices{1, 2}));
-  EXPECT_EQ (kept (loops, policy (HolePolicy::KEEP_LARGEST)), Indices{1});
+  EXPECT_EQ (kept (loops, {HolePolicy::KEEP_COUNT, 2}), (Indices{1, 2}));
+  EXPECT_EQ (kept (loops, {HolePolicy::KEEP_LARGEST}), Indices{1});
   // A gap too deep to be filled stays open, unless the policy says otherwise.
   loops[0].judgement.is_too_deep = true;
-  EXPECT_EQ (kept (loops, policy (HolePolicy::AUTO)), Indices{0});
-  EXPECT_EQ (kept (loops, policy (HolePolicy::CLOSE_ALL)), Indices{});
+  EXPECT_EQ (kept (loops, {HolePolicy::AUTO}), Indices{0});
+  EXPECT_EQ (kept (loops, {HolePolicy::CLOSE_ALL}), Indices{});
 }
 
 TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)

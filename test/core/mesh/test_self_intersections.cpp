@@ -114,12 +114,8 @@ TEST (SelfIntersections, SearchEndsAtItsLimitAndSaysMoreThan)
   EXPECT_TRUE (found.check.has_more_self_intersections);
   EXPECT_NE (warningOf (points, triangles, found).find ("more than"), std::string::npos);
   // What was not tested is cut off, too: no two triangles of the rest cross.
-  TriangleMesh mesh;
-  mesh.triangles = triangles;
-  ASSERT_TRUE (mesh.connect (positions.size (), 1));
-  TrimmingOptions open;
-  open.open_self_intersections = true;
-  trimMesh (mesh, points, std::vector<float> (positions.size (), 1.0F), open, 1);
+  TriangleMesh mesh = connected (triangles, positions.size ());
+  trimMesh (mesh, points, std::vector<float> (positions.size (), 1.0F), {0.0, 0.0, true, 0}, 1);
   EXPECT_TRUE (findSelfIntersections (mesh.triangles, positions, 1).empty ());
 }
 

@@ -54,20 +54,15 @@ expectSplits (Mesh mesh, const Positions& points)
   }
   EXPECT_EQ (splitVertices (result, mesh.positions, added, {}, 1), points.size ());
   expectConsistent (result);
-  const MeshTopology after = topologyOf (result.triangles);
-  EXPECT_EQ (after.vertices, before.vertices + points.size ());
-  EXPECT_EQ (after.euler, before.euler);
-  EXPECT_EQ (after.components, before.components);
-  EXPECT_EQ (after.loops.size (), before.loops.size ());
+  expectTopology (result.triangles, before.vertices + points.size (), before.components,
+                  before.euler, before.loops.size ());
   return result;
 }
 
 TEST (VertexSplits, TopologyStaysWhereverPointsAre)
 {
   RandomStream random (2);
-  Mesh lone;
-  lone.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  lone.triangles = {{0, 1, 2}};
+  const Mesh lone{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   for (const Mesh& mesh :
        {lone, tetrahedron (), sheet (4), annulus (9), torus (9, 5), beside (sheet (3), lone)})
     for (const double offset : {1e-12, 0.01, 0.1, 1.0}) {
