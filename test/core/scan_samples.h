@@ -209,10 +209,10 @@ inline Scan
 scanYard (double width, double off, bool is_dense, std::uint64_t seed)
 {
   RandomStream random (seed);
-  const Eigen::Vector3d slope (between (random, -0.05, 0.05), between (random, -0.05, 0.05), 0.0);
+  const Eigen::Vector3d slope{between (random, -0.05, 0.05), between (random, -0.05, 0.05), 0.0};
   const Eigen::Vector3d corner (0.5 * width, 0.5 * width, 8.0);
   Scene yard{{{Eigen::Vector3d::UnitZ () - slope, 0.0}}, {}, {-corner, corner}};
-  Eigen::Vector3d place (between (random, -off, off), between (random, -off, off), 0.0);
+  Eigen::Vector3d place{between (random, -off, off), between (random, -off, off), 0.0};
   place.z () = slope.dot (place) + between (random, 1.2, 2.6);
   for (int i = 0; i < 8; ++i) {
     const double angle = between (random, 0.0, 2.0 * PI), distance = between (random, 5.0, 25.0);

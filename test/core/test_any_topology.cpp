@@ -43,15 +43,6 @@ PrintTo (const Case& one, std::ostream* out)
   *out << one.name;
 }
 
-std::string
-warningsOf (const Report& report)
-{
-  std::string text;
-  for (const std::string& warning : report.warnings)
-    text += "\n  warning: " + warning;
-  return text;
-}
-
 // All points but the outliers are vertices of a mesh with the topology of the surface.
 void
 expectTopologyOf (const Result& result, const KnownSurface& surface)
@@ -126,7 +117,8 @@ expectSurface (const Case& one)
   const Result result = reconstruct (asInput (surface.points), options);
   SCOPED_TRACE (std::to_string (surface.points.size ()) + " points, by " +
                 (result.report.topology == Topology::DISC ? "DISC: " : "SURFACE: ") +
-                result.report.topology_reason + warningsOf (result.report));
+                result.report.topology_reason + " " +
+                testing::PrintToString (result.report.warnings));
   ASSERT_EQ (result.report.status, RunStatus::SUCCESS) << result.report.message;
   EXPECT_FALSE (warns (result.report, "one-sided"));
   EXPECT_NE (result.report.topology_reason, "");
@@ -165,7 +157,7 @@ TEST (OneSided, IsNeverPassedOffAsRight)
     EXPECT_TRUE (topologyOf (result.triangles).manifold);
     EXPECT_TRUE (warns (result.report, "one side") || warns (result.report, "one-sided") ||
                  warns (result.report, "orient"))
-        << warningsOf (result.report);
+        << testing::PrintToString (result.report.warnings);
   }
 }
 

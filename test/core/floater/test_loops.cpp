@@ -56,17 +56,12 @@ onCircle (double angle)
 
 TEST (LoopOfSurface, IsTheOuterBorderOfASheet)
 {
-  struct Case
-  {
-    const char* name;
-    std::function<Sheet (std::uint64_t)> make;
-  };
   const auto square = [] (double width, double height, double step, std::uint64_t seed,
                           double jitter = 0.3) {
     return fillOutlines ({resample ({{0, 0}, {width, 0}, {width, height}, {0, height}}, step)},
                          step, jitter, seed);
   };
-  const std::vector<Case> cases{
+  const std::vector<std::pair<const char*, std::function<Sheet (std::uint64_t)>>> cases{
       {"disc", [] (std::uint64_t seed) { return disc (0.06, seed); }},
       {"square", [&] (std::uint64_t seed) { return square (1.0, 1.0, 0.04, seed); }},
       {"lattice", [&] (std::uint64_t seed) { return square (20.0, 20.0, 1.0, seed, 0.0); }},
@@ -88,10 +83,10 @@ TEST (LoopOfSurface, IsTheOuterBorderOfASheet)
            p = std::exp (p.x ()) * onCircle (p.y ());
          return sheet;
        }}};
-  for (const Case& one : cases)
+  for (const auto& [name, make] : cases)
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      SCOPED_TRACE (one.name + std::to_string (seed));
-      const Sheet sheet = one.make (seed);
+      SCOPED_TRACE (name + std::to_string (seed));
+      const Sheet sheet = make (seed);
       const std::vector<Index> loop = canonicalCycle (discOf (sheet.positions).loop);
       // The border in order, and inner points only where triangles at it are obtuse.
       std::vector<Index> border;

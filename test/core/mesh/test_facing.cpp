@@ -16,13 +16,8 @@ namespace {
 using facing_cases::makeBowl;
 using namespace samples;
 
-struct Form
-{
-  const char* name;
-  Mesh mesh; // faces as it should
-};
-
-std::vector<Form>
+// Meshes that face as they should.
+std::vector<std::pair<const char*, Mesh>>
 forms ()
 {
   const auto square = [] (const std::function<Eigen::Vector3d (double, double)>& shape) {
@@ -71,16 +66,15 @@ forms ()
 
 TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
 {
-  for (const Form& form : forms ()) {
-    SCOPED_TRACE (form.name);
-    const Positions& positions = form.mesh.positions;
+  for (const auto& [name, form] : forms ()) {
+    SCOPED_TRACE (name);
     for (const bool is_turned : {false, true}) {
-      Mesh given = form.mesh;
+      Mesh given = form;
       if (is_turned)
         turnRound (given);
       TriangleMesh mesh = connected (given);
-      EXPECT_EQ (faceOutwards (mesh, positions, {}, {}, 1).turned, is_turned ? 1U : 0U);
-      EXPECT_TRUE (mesh.triangles == form.mesh.triangles);
+      EXPECT_EQ (faceOutwards (mesh, form.positions, {}, {}, 1).turned, is_turned ? 1U : 0U);
+      EXPECT_TRUE (mesh.triangles == form.triangles);
       expectConsistent (mesh);
     }
   }
