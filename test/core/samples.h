@@ -223,16 +223,17 @@ unordered (const std::vector<Triangle>& triangles)
 }
 
 /// Expects an oriented manifold of so many vertices, components and boundary loops.
-inline void
+inline MeshTopology
 expectTopology (const std::vector<Triangle>& triangles, std::size_t vertices,
                 std::size_t components, long euler, std::size_t loops)
 {
-  const MeshTopology topology = topologyOf (triangles);
+  MeshTopology topology = topologyOf (triangles);
   EXPECT_TRUE (topology.manifold);
   EXPECT_EQ (topology.vertices, vertices);
   EXPECT_EQ (topology.components, components);
   EXPECT_EQ (topology.euler, euler);
   EXPECT_EQ (topology.loops.size (), loops);
+  return topology;
 }
 
 inline double

@@ -22,11 +22,7 @@ expectDisc (const Result& result, std::size_t points)
   const Report& report = result.report;
   ASSERT_EQ (report.status, RunStatus::SUCCESS) << report.message;
   EXPECT_TRUE (report.message.empty ());
-  const MeshTopology topology = topologyOf (result.triangles);
-  EXPECT_TRUE (topology.manifold);
-  EXPECT_EQ (topology.components, 1U);
-  EXPECT_EQ (topology.euler, 1);
-  EXPECT_EQ (topology.vertices, points);
+  const MeshTopology topology = expectTopology (result.triangles, points, 1, 1, 1);
   ASSERT_EQ (topology.loops.size (), 1U);
   EXPECT_EQ (canonicalCycle (topology.loops.front ()), canonicalCycle (report.loop));
   EXPECT_TRUE (report.unused.empty ());

@@ -58,8 +58,7 @@ TEST (LoopOfSurface, IsTheOuterBorderOfASheet)
 {
   const auto square = [] (double width, double height, double step, std::uint64_t seed,
                           double jitter = 0.3) {
-    return fillOutlines ({resample ({{0, 0}, {width, 0}, {width, height}, {0, height}}, step)},
-                         step, jitter, seed);
+    return fillOutlines ({resample (rectangle (width, height), step)}, step, jitter, seed);
   };
   const std::vector<std::pair<const char*, std::function<Sheet (std::uint64_t)>>> cases{
       {"disc", [] (std::uint64_t seed) { return disc (0.06, seed); }},
@@ -150,8 +149,7 @@ borders ()
   for (const double side : {1.0, 3.0, 4.0, 10.0, 25.0}) { // with ties
     all.emplace_back ("rectangle " + std::to_string (side), Positions{});
     const double height = side == 1.0 ? 1.0 : 2.0 * side; // the least: four points
-    for (const Eigen::Vector2d& p :
-         resample ({{0, 0}, {side, 0}, {side, height}, {0, height}}, 1.0))
+    for (const Eigen::Vector2d& p : resample (rectangle (side, height), 1.0))
       all.back ().second.emplace_back (p.x (), p.y (), 0.0);
   }
   return all;

@@ -40,8 +40,7 @@ LinearSystem
 squareSystem (int side, std::uint64_t seed, Weighting weighting = Weighting::MEAN_VALUE)
 {
   const double step = 1.0 / (side - 1);
-  const Sheet sheet =
-      fillOutlines ({resample ({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, step)}, step, 0.12, seed);
+  const Sheet sheet = fillOutlines ({resample (rectangle (1.0, 1.0), step)}, step, 0.12, seed);
   const auto [points, geometry] = makeNeighborhoods (sheet.positions);
   std::vector<Index> loop (sheet.border);
   std::vector<Eigen::Vector2d> uv;

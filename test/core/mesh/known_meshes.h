@@ -90,10 +90,7 @@ inline std::vector<Index>
 expectDisc (const TriangleMesh& mesh, std::size_t vertices)
 {
   expectConsistent (mesh);
-  const MeshTopology topology = topologyOf (mesh.triangles);
-  EXPECT_EQ (topology.euler, 1);
-  EXPECT_EQ (topology.vertices, vertices);
-  EXPECT_EQ (topology.loops.size (), 1U);
+  const MeshTopology topology = expectTopology (mesh.triangles, vertices, 1, 1, 1);
   return topology.loops.empty () ? std::vector<Index> () : topology.loops.front ();
 }
 
