@@ -6,7 +6,6 @@
 Usage: skipped.py FILE, which ctest --output-junit has written
 Prints a line for each reason, with the names of the tests.
 """
-
 import collections
 import re
 import sys
