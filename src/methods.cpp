@@ -186,8 +186,8 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   return problem;
 }
 
-// The longest boundary loop of the surface that the stars make: those of a net where points lie on
-// others, which a layout in the plane needs no net for.
+// The longest boundary loop of the surface that the stars make. Where points lie on others, it is the
+// surface of a net of them.
 Boundary
 loopOfSurface (const Points& points, LocalGeometry geometry, const Request& request)
 {
@@ -218,7 +218,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
       boundary.loop = std::move (loop);
     }
   }
-  std::vector<Index> of_net (net.size ()); // the net has the points in the same order
+  std::vector<Index> of_net (net.size ()); // points, in the same order
   for (Index p = 0, kept = 0; kept < of_net.size (); ++p)
     if (points.cloud_index[p] == net.cloud_index[kept])
       of_net[kept++] = p;

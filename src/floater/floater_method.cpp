@@ -144,9 +144,8 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
             std::to_string (disc.mesh.triangles.size () * 3 / 2) +
             " edges are folded: the surface is not one disc with one boundary (it may be closed, "
             "have handles or several components, be sampled too thinly, or have a finger longer "
-            "than "
-            "35 of its radii); let the topology be chosen automatically, or reconstruct a part of "
-            "the surface"};
+            "than 35 of its radii); let the topology be chosen automatically, or reconstruct a "
+            "part of the surface"};
   return disc;
 }
 

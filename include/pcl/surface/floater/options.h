@@ -252,7 +252,8 @@ struct DiscOptions
 
   /// Exactly the method of TW 385. The surface is made as a disc, also for Topology::AUTO. All
   /// extensions are off, whatever their options are: outliers, noise, the filter of sheets, edge
-  /// flips, the repair of folds and crossings, and the insertion of points without a triangle. Not with Topology::SURFACE.
+  /// flips, the repair of folds and crossings, and the insertion of points without a triangle. Not
+  /// with Topology::SURFACE.
   bool as_published = false;
 
   /// The options of TW 385: boundary points by an opening angle of 160 degrees (section 3.1), their
