@@ -120,7 +120,7 @@ starSettings (const Request& request)
 }
 
 LocalPlanes
-findPlanes (const Points& points, const NeighborSettings& settings, const Request& request)
+searchPlanes (const Points& points, const NeighborSettings& settings, const Request& request)
 {
   const RunContext& run = request.run;
   run.beginStage (Stage::NEIGHBORS);
@@ -128,8 +128,7 @@ findPlanes (const Points& points, const NeighborSettings& settings, const Reques
   CsrLists neighbors =
       findNeighbors (points, settings, run, asksForDisc (request.options) ? nullptr : &tree);
   run.beginStage (Stage::STARS);
-  return fitLocalPlanes (points, std::move (neighbors), std::move (tree), starSettings (request),
-                         run, request.limits.planes);
+  return beginPlanes (points, std::move (neighbors), std::move (tree), starSettings (request), run);
 }
 
 LocalGeometry
@@ -139,8 +138,10 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
   const RunContext& run = request.run;
   points.projected =
       projectNoisyPoints (points.positions, geometry.neighbors, noise, request.limits.noise, run);
-  LocalGeometry projected = makeLocalGeometry (points, findPlanes (points, settings, request),
-                                               starSettings (request), run);
+  const StarSettings stars = starSettings (request);
+  LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
+                                       request.limits.planes);
+  LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);
   keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
                  starAgreement (projected.stars, run), request.limits.noise, noise);
   if (noise.noisy_points == 0) {

@@ -41,9 +41,9 @@ takeScatter (Points& points, const std::vector<Index>& scatter, const Options& o
 StarSettings
 starSettings (const Request& request);
 
-/// The neighbours of all points, and their tangent planes.
+/// The neighbours of all points, and their spacing, for fitLocalPlanes ().
 LocalPlanes
-findPlanes (const Points& points, const NeighborSettings& settings, const Request& request);
+searchPlanes (const Points& points, const NeighborSettings& settings, const Request& request);
 
 /// Beyond TW 385: projects noisy points on local planes, by which they are connected, where noise
 /// explains the disagreement of their stars. The mesh has triangles only, so the user's points stay

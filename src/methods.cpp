@@ -200,8 +200,8 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
     net.projected = points.projected;
   else {
     const StarSettings stars = starSettings (request);
-    LocalPlanes planes =
-        fitLocalPlanes (net, std::move (geometry.neighbors), {}, stars, run, request.limits.planes);
+    LocalPlanes planes = beginPlanes (net, std::move (geometry.neighbors), {}, stars, run);
+    planes = fitLocalPlanes (net, std::move (planes), stars, run, request.limits.planes);
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
   }
   SurfaceSettings settings;
@@ -316,12 +316,13 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   const Viewpoint of_file{points.fromCloud (request.sensor_origin)};
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
-  const LocalPlanes planes = findPlanes (points, {request.options.neighbors}, request);
+  const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
+  const RowOf row_of = rowsBeside (points, planes, starSettings (request), request.limits.planes);
   const std::vector<AreaSample> samples =
-      takePatchSamples (points.positions, planes.neighbors, search.samples);
+      takePatchSamples (points.positions, row_of, search.samples);
   for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
     if (const std::optional<Viewpoint> found =
-            findViewpoint (points, planes.neighbors, samples, reason, search, evidence, run))
+            findViewpoint (points, row_of, samples, reason, search, evidence, run))
       return found;
   return {};
 }

@@ -71,26 +71,27 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return problem;
   run.beginStage (Stage::STARS);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes = known != nullptr
-                           ? known->planes ()
-                           : fitLocalPlanes (points, std::move (neighbors), std::move (tree), stars,
-                                             run, limits.planes);
+  LocalPlanes planes =
+      known != nullptr ? known->planes ()
+                       : beginPlanes (points, std::move (neighbors), std::move (tree), stars, run);
   const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
-  const auto reconstructFrom = [&] (const CsrLists& neighbors_there, SearchReason reason) {
+  const auto reconstructFrom = [&] (const RowOf& row_of, SearchReason reason) {
     const std::optional<Viewpoint> viewpoint =
-        findViewpoint (points, neighbors_there, samples, reason, search, limits.view.evidence, run);
+        findViewpoint (points, row_of, samples, reason, search, limits.view.evidence, run);
     return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
   };
   std::optional<Stars> begun;
   if (known != nullptr)
     begun = known->begunStars ();
   if (may_be_seen) {
-    samples = takePatchSamples (points.positions, planes.neighbors, search.samples);
-    if (const std::optional<Problem> problem =
-            reconstructFrom (planes.neighbors, SearchReason::UNEVEN))
+    const RowOf row_of = rowsBeside (points, planes, stars, limits.planes);
+    samples = takePatchSamples (points.positions, row_of, search.samples);
+    if (const std::optional<Problem> problem = reconstructFrom (row_of, SearchReason::UNEVEN))
       return *problem;
   }
+  if (known == nullptr)
+    planes = fitLocalPlanes (points, std::move (planes), stars, run, limits.planes);
   const bool is_measured = options.denoise || dropsScatter (options);
   Noise noise;
   if (is_measured)
@@ -111,8 +112,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   // the front.
   const bool looks_noisy = noise.is_strong || !scatter.empty ();
   if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
-    if (const std::optional<Problem> problem =
-            reconstructFrom (geometry.neighbors, SearchReason::OPEN))
+    if (const std::optional<Problem> problem = reconstructFrom (
+            [&] (Index p) { return geometry.neighbors.row (p); }, SearchReason::OPEN))
       return *problem;
   if (takeScatter (points, scatter, options, report)) {
     geometry = {};
@@ -125,7 +126,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                   " on one; take a part that is a surface, smooth the cloud or thin it by a voxel "
                   "grid, use a method that smooths, such as Poisson reconstruction, or keep the "
                   "scatter"};
-    planes = findPlanes (points, settings, request);
+    planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
+                             limits.planes);
     noise = measureNoise (points.positions, planes.neighbors, limits.noise, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
     noise.is_strong = isStrongNow (limits.noise.disturbed_share);

@@ -6,6 +6,7 @@
 #include "core/types.h"
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,9 @@ struct Row
   std::size_t size () const { return static_cast<std::size_t> (last - first); }
   Index operator[] (std::size_t i) const { return first[i]; }
 };
+
+/// Gives a row of a table, which is valid until it is called again.
+using RowOf = std::function<Row (Index)>;
 
 /// One list of indices for each row, all in one array: row r is ids[begin (r)] to
 /// ids[begin (r + 1)], the end not included.

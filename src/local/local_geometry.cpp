@@ -54,20 +54,41 @@ mergeRows (const CsrLists& first, const CsrLists& second, const std::vector<std:
 } // namespace
 
 LocalPlanes
-fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
-                const StarSettings& settings, const RunContext& run, const PlaneLimits& limits)
+beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
+             const StarSettings& settings, const RunContext& run)
 {
   const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
   LocalPlanes planes;
   planes.neighbors = std::move (neighbors);
   planes.spacing = localSpacing (positions, planes.neighbors, run);
-  if (settings.reach_beyond) {
-    if (known)
-      planes.tree.emplace (std::move (*known));
-    else
-      planes.tree.emplace (positions, run, PointOrder::ALONG_CURVE);
-    planes.beside = findBesideLines (positions, planes.neighbors, planes.spacing, *planes.tree,
-                                     limits.least_aspect, settings.reach, run);
+  if (settings.reach_beyond && known)
+    planes.tree.emplace (std::move (*known));
+  else if (settings.reach_beyond)
+    planes.tree.emplace (positions, run, PointOrder::ALONG_CURVE);
+  return planes;
+}
+
+RowOf
+rowsBeside (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+            const PlaneLimits& limits)
+{
+  if (!planes.tree || !planes.normals.empty ())
+    return [&planes] (Index p) { return planes.neighbors.row (p); };
+  BesideSearch search (points.workingPositions (), planes, limits.least_aspect, settings.reach);
+  return [&planes, search = std::move (search), row = std::vector<Index> ()] (Index p) mutable {
+    row.assign (planes.neighbors.row (p).begin (), planes.neighbors.row (p).end ());
+    search.extend (p, row);
+    return Row{row.data (), row.data () + row.size ()};
+  };
+}
+
+LocalPlanes
+fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& settings,
+                const RunContext& run, const PlaneLimits& limits)
+{
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  if (planes.tree) {
+    planes.beside = findBesideLines (positions, planes, limits.least_aspect, settings.reach, run);
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
   planes.normals.resize (positions.size ());

@@ -29,15 +29,27 @@ struct LocalGeometry
   }
 };
 
-/// Tangent planes and spacing by the working positions of the points. O(n k). Planes through the 8
-/// nearest neighbours, refitted to all neighbours near that plane, so that a second sheet within reach
-/// does not tilt them. If the 8 nearest are nearly collinear, as in scan lines, more are used.
+/// Spacing by the working positions of the points, for fitLocalPlanes ().
 /// \param neighbors of each point, nearest first
 /// \param known     kd-tree of the working positions; otherwise built if needed
 LocalPlanes
-fitLocalPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
-                const StarSettings& settings, const RunContext& run,
-                const PlaneLimits& limits = {});
+beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
+             const StarSettings& settings, const RunContext& run);
+
+/// The neighbours that fitLocalPlanes () will give a point; if it was called, those it has. For single
+/// points, of which that asks two searches if they are on a line.
+/// \param points, planes must outlive the result
+RowOf
+rowsBeside (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
+            const PlaneLimits& limits);
+
+/// Adds neighbours beside lines, and tangent planes by the working positions. O(n k). Planes through the
+/// 8 nearest neighbours, refitted to all neighbours near that plane, so that a second sheet within reach
+/// does not tilt them. If the 8 nearest are nearly collinear, as in scan lines, more are used.
+/// \param planes see beginPlanes
+LocalPlanes
+fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& settings,
+                const RunContext& run, const PlaneLimits& limits = {});
 
 /// Stars and spacing by the working positions of the points. O(n k log k).
 /// \param begun results of makeStars () for all points, if known; then `planes` needs no tree

@@ -143,72 +143,68 @@ lineAround (const std::vector<Eigen::Vector3d>& positions, Index p, const CsrLis
 
 } // namespace
 
-BesideLines
-findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
-                 const ReachLimits& limits, const RunContext& run)
+float
+BesideSearch::extend (Index p, std::vector<Index>& row)
 {
   constexpr double ROUNDED_UP = 1.0 + 1e-12;
+  const Eigen::Vector3d& here = positions_[p];
+  const std::optional<Line> line = lineAround (positions_, p, planes_.neighbors, least_aspect_);
+  if (!line)
+    return 0.0F;
+  Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
+  const auto is_beside = [&] (const Neighbor&, const Eigen::Vector3d& position) {
+    const Eigen::Vector3d offset = position - here;
+    return liesBeside (*line, offset, limits_) && (ahead.isZero (0.0) || isInFront (ahead, offset));
+  };
+  const double farthest = farthestFrom (positions_, p, planes_.neighbors.row (p),
+                                        static_cast<double> (planes_.spacing[p]), limits_);
+  // First on the side of the nearest one, then on the opposite side.
+  double nearest = 0.0;
+  for (std::vector<Neighbor>& found : found_on_) {
+    const bool is_first = &found == found_on_.data ();
+    // If all that the last point has found are beside this one, the nearest are no farther.
+    double bound = 0.0;
+    const bool is_bounded = found.size () == limits_.added &&
+                            std::all_of (found.begin (), found.end (), [&] (const Neighbor& other) {
+                              const Eigen::Vector3d& position = positions_[other.point];
+                              bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
+                              return is_beside (other, position);
+                            });
+    planes_.tree->nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest,
+                             limits_.added, is_beside, found);
+    planes_.tree->looked (here, reachOfSearch (found, limits_.added, farthest));
+    if (found.empty ()) // beside the last line
+      return is_first ? 0.0F : static_cast<float> (nearest);
+    const double distance = std::sqrt (found.front ().sqr_distance);
+    nearest = is_first ? distance : std::min (nearest, distance);
+    const Eigen::Vector3d offset = positions_[found.front ().point] - here;
+    ahead = line->direction * line->direction.dot (offset) - offset;
+    for (const Neighbor& neighbor : found)
+      if (std::find (row.begin (), row.end (), neighbor.point) == row.end ())
+        row.push_back (neighbor.point);
+  }
+  return static_cast<float> (nearest);
+}
+
+BesideLines
+findBesideLines (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
+                 double least_aspect, const ReachLimits& limits, const RunContext& run)
+{
   const std::size_t n = positions.size ();
   BesideLines beside;
-  beside.reach.assign (n, 0.0F);
+  beside.reach.resize (n);
   CsrLists& lists = beside.neighbors;
   lists.offsets.assign (n + 1, 0);
   RangeLists<Index> ranges (n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    std::array<std::vector<Neighbor>, 2> found_on; // the sides of the last point on a line
+    BesideSearch search (positions, planes, least_aspect, limits);
+    std::vector<Index> row;
     for (auto p = static_cast<Index> (first); p < last; ++p) {
-      const Eigen::Vector3d& here = positions[p];
-      const Row row = neighbors.row (p);
-      const std::optional<Line> found_line = lineAround (positions, p, neighbors, least_aspect);
-      if (!found_line)
-        continue;
-      const Line& line = *found_line;
-      Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
-      const auto is_beside = [&] (const Neighbor&, const Eigen::Vector3d& position) {
-        const Eigen::Vector3d offset = position - here;
-        return liesBeside (line, offset, limits) &&
-               (ahead.isZero (0.0) || isInFront (ahead, offset));
-      };
-      // First on the side of the nearest one, then on the opposite side.
-      double smaller = 0.0;
-      for (const bool is_first : {true, false}) {
-        std::vector<Neighbor>& found = found_on[is_first ? 0 : 1];
-        const double farthest =
-            farthestFrom (positions, p, row, static_cast<double> (spacing[p]), limits);
-        // If all that the last point has found are beside this one, the nearest are no farther.
-        double bound = 0.0;
-        const bool is_bounded =
-            found.size () == limits.added &&
-            std::all_of (found.begin (), found.end (), [&] (const Neighbor& neighbor) {
-              const Eigen::Vector3d& position = positions[neighbor.point];
-              bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
-              return is_beside (neighbor, position);
-            });
-        tree.nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest,
-                        limits.added, is_beside, found);
-        tree.looked (here, reachOfSearch (found, limits.added, farthest));
-        if (found.empty ()) {
-          if (!is_first) // beside the last line
-            beside.reach[p] = static_cast<float> (smaller);
-          break;
-        }
-        const double distance = std::sqrt (found.front ().sqr_distance);
-        smaller = is_first ? distance : std::min (smaller, distance);
-        if (!is_first)
-          beside.reach[p] = static_cast<float> (smaller);
-        const Eigen::Vector3d offset = positions[found.front ().point] - here;
-        ahead = line.direction * line.direction.dot (offset) - offset;
-        std::vector<Index>& range = ranges.of (first);
-        const auto begin = range.end () - static_cast<std::ptrdiff_t> (lists.offsets[p + 1]);
-        std::vector<Index> listed (begin, range.end ());
-        for (const Neighbor& neighbor : found)
-          if (std::find (row.begin (), row.end (), neighbor.point) == row.end () &&
-              std::find (listed.begin (), listed.end (), neighbor.point) == listed.end ()) {
-            range.push_back (neighbor.point);
-            ++lists.offsets[p + 1];
-          }
-      }
+      const Row known = planes.neighbors.row (p);
+      row.assign (known.begin (), known.end ());
+      beside.reach[p] = search.extend (p, row);
+      lists.offsets[p + 1] = static_cast<Index> (row.size () - known.size ());
+      ranges.of (first).insert (ranges.of (first).end (), row.begin () + known.size (), row.end ());
     }
   });
   sumRowLengths (lists.offsets);

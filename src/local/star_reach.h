@@ -10,6 +10,7 @@
 #include "points/kd_tree.h"
 #include "points/neighbors.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -69,12 +70,34 @@ struct LocalPlanes
   BesideLines beside;                   ///< neighbours beside lines, in the same case
 };
 
+/// Finds the neighbours beside the line of a point, if it is on one, by two searches.
+class BesideSearch
+{
+public:
+  /// \param planes with neighbours, spacing and tree; must outlive this
+  BesideSearch (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
+                double least_aspect, const ReachLimits& limits)
+      : positions_ (positions), planes_ (planes), least_aspect_ (least_aspect), limits_ (limits)
+  {
+  }
+
+  /// \param row in: the neighbours of p; out: with those beside its line
+  /// \return see BesideLines::reach
+  float extend (Index p, std::vector<Index>& row);
+
+private:
+  const std::vector<Eigen::Vector3d>& positions_;
+  const LocalPlanes& planes_;
+  double least_aspect_;
+  ReachLimits limits_;
+  std::array<std::vector<Neighbor>, 2> found_on_; // the sides of the last point on a line
+};
+
 /// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
-/// \param spacing see localSpacing
+/// \param planes with neighbours, spacing and tree
 BesideLines
-findBesideLines (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<float>& spacing, const KdTree& tree, double least_aspect,
-                 const ReachLimits& limits, const RunContext& run);
+findBesideLines (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
+                 double least_aspect, const ReachLimits& limits, const RunContext& run);
 
 /// Appends lists to others, row by row, in place. O(entries).
 void

@@ -12,7 +12,7 @@
 
 namespace pcl::floater {
 std::vector<RayPatch>
-findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const RowOf& row_of,
                   std::size_t count, std::size_t size)
 {
   std::vector<RayPatch> patches (count);
@@ -21,7 +21,7 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
     RayPatch& patch = patches[k];
     patch.assign (1, static_cast<Index> (seed));
     for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
-      for (const Index q : neighbors.row (patch[i]))
+      for (const Index q : row_of (patch[i]))
         if (patch.size () < size && std::find (patch.begin (), patch.end (), q) == patch.end ())
           patch.push_back (q);
     const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
@@ -32,12 +32,12 @@ findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists&
 }
 
 std::vector<AreaSample>
-takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const RowOf& row_of,
                   std::size_t count)
 {
   constexpr std::size_t SIZE = 60; // points; noise of a spacing is a quarter of their radius
   std::vector<AreaSample> samples;
-  for (const RayPatch& patch : findPointPatches (positions, neighbors, count, SIZE)) {
+  for (const RayPatch& patch : findPointPatches (positions, row_of, count, SIZE)) {
     PlaneFit fit;
     for (const Index p : patch)
       fit.add (positions[p]);

@@ -11,10 +11,11 @@
 namespace pcl::floater {
 /// Patches around points that are spread evenly over their order, over their neighbours: also across
 /// rows that are far apart. Parallel rays to a patch are near each other for any direction.
+/// \param row_of neighbours of a point, nearest first
 /// \param size points of a patch; fewer if there are no more around
 /// \return the points of each patch, sorted by distance to the first one
 std::vector<RayPatch>
-findPointPatches (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+findPointPatches (const std::vector<Eigen::Vector3d>& positions, const RowOf& row_of,
                   std::size_t count, std::size_t size);
 
 /// A point and the area around it.
@@ -25,9 +26,9 @@ struct AreaSample
 };
 
 /// Area samples of patches of points: noise and rows spoil the stars of single points. O(count).
-/// \param neighbors nearest first
+/// \param row_of see findPointPatches
 std::vector<AreaSample>
-takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+takePatchSamples (const std::vector<Eigen::Vector3d>& positions, const RowOf& row_of,
                   std::size_t count);
 
 /// Logarithm of the ratio of the upper to the lower quartile.

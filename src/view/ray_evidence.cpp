@@ -28,7 +28,7 @@
 
 namespace pcl::floater {
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
+findRows (const Points& points, const RowOf& row_of, std::size_t count)
 {
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
   constexpr double BENT = 0.87;     // cosine of 30 degrees. Noise of 0.3 spacings along the surface
@@ -40,7 +40,7 @@ findRows (const Points& points, const CsrLists& neighbors, std::size_t count)
   std::vector<Eigen::Vector3d> directions;          // of the rows
   Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of their squares
   for (std::size_t p = step / 2; p < positions.size (); p += step) {
-    const Row row = neighbors.row (p);
+    const Row row = row_of (static_cast<Index> (p));
     if (row.size () < 2)
       continue;
     const Eigen::Vector3d u = (positions[row[0]] - positions[p]).normalized ();

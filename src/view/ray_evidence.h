@@ -23,10 +23,10 @@ struct RowEvidence
   bool are_straight = true; ///< nearly all have one direction, so their planes are undetermined
 };
 
-/// \param neighbors nearest first
+/// \param row_of neighbours of a point, nearest first
 /// \param count number of tested points, spread evenly over their order. O(count).
 RowEvidence
-findRows (const Points& points, const CsrLists& neighbors, std::size_t count);
+findRows (const Points& points, const RowOf& row_of, std::size_t count);
 
 struct EvidenceLimits
 {

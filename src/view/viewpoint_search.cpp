@@ -29,11 +29,11 @@ spreadOfAreas (const std::vector<AreaSample>& samples)
 class ViewpointSearch
 {
 public:
-  ViewpointSearch (const Points& points, const CsrLists& neighbors,
+  ViewpointSearch (const Points& points, const RowOf& row_of,
                    const std::vector<AreaSample>& samples, const SearchLimits& limits,
                    const EvidenceLimits& evidence, bool may_be_far, const RunContext& run)
-      : positions_ (points.positions), neighbors_ (neighbors), limits_ (limits),
-        evidence_ (evidence), run_ (run), samples_ (samples), may_be_far_ (may_be_far)
+      : positions_ (points.positions), row_of_ (row_of), limits_ (limits), evidence_ (evidence),
+        run_ (run), samples_ (samples), may_be_far_ (may_be_far)
   {
     for (const Eigen::Vector3d& position : positions_)
       box_.extend (position);
@@ -66,7 +66,7 @@ public:
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (
-        positions_, neighbors_, std::min (coarse_.patches, FEW), coarse_.patch_points);
+        positions_, row_of_, std::min (coarse_.patches, FEW), coarse_.patch_points);
     // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
     // least cost was up to .053 of the median; along noisy lines that are no scan, .15 and more.
     constexpr double LEAST = 0.1;
@@ -378,7 +378,7 @@ private:
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
-  const CsrLists& neighbors_;
+  const RowOf& row_of_;
   const SearchLimits& limits_;
   EvidenceLimits evidence_;
   EvidenceLimits coarse_;  // fewer patches, during the search
@@ -393,9 +393,9 @@ private:
 } // namespace
 
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, SearchReason reason,
-               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run)
+findViewpoint (const Points& points, const RowOf& row_of, const std::vector<AreaSample>& samples,
+               SearchReason reason, const SearchLimits& limits, const EvidenceLimits& evidence,
+               const RunContext& run)
 {
   constexpr std::size_t FEWEST_PATCHES = 16;
   EvidenceLimits filled = evidence;
@@ -403,9 +403,9 @@ findViewpoint (const Points& points, const CsrLists& neighbors,
   if (filled.patches < FEWEST_PATCHES)
     return {};
   const bool for_uneven = reason == SearchReason::UNEVEN;
-  const ViewpointSearch search (points, neighbors, samples, limits, filled, for_uneven, run);
+  const ViewpointSearch search (points, row_of, samples, limits, filled, for_uneven, run);
   if (for_uneven) {
-    const RowEvidence rows = findRows (points, neighbors, limits.samples);
+    const RowEvidence rows = findRows (points, row_of, limits.samples);
     if (rows.share > limits.rows && !rows.are_straight)
       if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
         return found;

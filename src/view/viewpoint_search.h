@@ -78,12 +78,12 @@ enum class SearchReason
 /// evenly spaced and no point hides another (see RayEvidence), or the viewpoint explains the density
 /// of the points (see explainsDensity). Clouds that fill few patches (EvidenceLimits) have no
 /// evidence.
-/// \param neighbors nearest first
+/// \param row_of    neighbours of a point, nearest first
 /// \param samples   SearchLimits::samples of the points, see takePatchSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
-findViewpoint (const Points& points, const CsrLists& neighbors,
-               const std::vector<AreaSample>& samples, SearchReason reason,
-               const SearchLimits& limits, const EvidenceLimits& evidence, const RunContext& run);
+findViewpoint (const Points& points, const RowOf& row_of, const std::vector<AreaSample>& samples,
+               SearchReason reason, const SearchLimits& limits, const EvidenceLimits& evidence,
+               const RunContext& run);
 
 } // namespace pcl::floater

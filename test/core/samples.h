@@ -175,7 +175,8 @@ makeNeighborhoods (const Positions& positions, bool filter_sheets = true)
   const StarSettings settings{filter_sheets};
   Neighborhoods made{makePoints (positions, indices (positions.size ()), 1), {}};
   LocalPlanes planes =
-      fitLocalPlanes (made.points, findNeighbors (made.points, {}, 1), {}, settings, 1);
+      beginPlanes (made.points, findNeighbors (made.points, {}, 1), {}, settings, 1);
+  planes = fitLocalPlanes (made.points, std::move (planes), settings, 1);
   made.geometry = makeLocalGeometry (made.points, std::move (planes), settings, 1);
   return made;
 }

@@ -144,8 +144,10 @@ planesStep (const StepContext& context, std::size_t block)
     Points around;
     around.positions = search.positions ();
     around.normals = cloud.given<Eigen::Vector3f> ("normals", search.points ());
-    planes = fitLocalPlanes (around, toPlaces (search, nearest), search.makeTree (context.run),
-                             settings, context.run, context.limits.planes);
+    planes = beginPlanes (around, toPlaces (search, nearest), search.makeTree (context.run),
+                          settings, context.run);
+    planes =
+        fitLocalPlanes (around, std::move (planes), settings, context.run, context.limits.planes);
   } while (search.widen ());
   const CsrLists beside = ofOwn (search, planes.beside.neighbors);
   put (context, "planes", block,

@@ -312,7 +312,9 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   }
   const auto rowsOf = [] (const Positions& positions) {
     const Points points = workingPoints (positions);
-    return findRows (points, findNeighbors (points, {}, 1), 200);
+    const CsrLists neighbors = findNeighbors (points, {}, 1);
+    return findRows (
+        points, [&neighbors] (Index p) { return neighbors.row (p); }, 200);
   };
   EXPECT_GT (rowsOf (lines).share, 0.95);
   EXPECT_TRUE (rowsOf (lines).are_straight);
