@@ -86,13 +86,14 @@ struct Flaws
 // What is found at a range of triangles. Edges belong to the smaller triangle.
 struct Figures
 {
-  std::size_t edges = 0;
+  std::size_t edges = 0, bent = 0;
   Flaws broken, folds, degenerate, long_edges;
   LongEdge longest, longest_inside;
 
   void add (const Figures& more)
   {
     edges += more.edges;
+    bent += more.bent;
     broken.add (more.broken);
     folds.add (more.folds);
     degenerate.add (more.degenerate);
@@ -148,8 +149,11 @@ lookAtEdge (MeshEdge e, const TriangleMesh& mesh, const std::vector<Eigen::Vecto
     found.long_edges.add ({1, p});
     found.longest_inside.take (edge);
   }
-  if (isFold (areaVectorOf (mesh.triangles[e.triangle], positions),
-              areaVectorOf (mesh.triangles[other], positions)))
+  const Eigen::Vector3d normal = areaVectorOf (mesh.triangles[e.triangle], positions),
+                        beyond = areaVectorOf (mesh.triangles[other], positions);
+  constexpr double COSINE = 0.5; // of 60 degrees
+  found.bent += normal.dot (beyond) < COSINE * normal.norm () * beyond.norm () ? 1 : 0;
+  if (isFold (normal, beyond))
     found.folds.add ({1, p});
 }
 
@@ -258,6 +262,8 @@ checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<flo
     broken.add (several);
   }
   found.broken_at = broken.at;
+  found.bent_share = static_cast<double> (figures.bent) /
+                     static_cast<double> (std::max<std::size_t> (1, figures.edges));
   check.folds = figures.folds.count;
   found.fold_at = figures.folds.at;
   check.degenerate_triangles = figures.degenerate.count;

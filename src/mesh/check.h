@@ -44,6 +44,7 @@ struct MeshExamination
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
   Index broken_at = NONE;      ///< non-manifold, or two triangles with opposite orientations
+  double bent_share = 0.0;     ///< of the edges: bent by more than 60 degrees
   Index fold_at = NONE;        ///< start of a folded edge
   Index degenerate_at = NONE;  ///< corner of a degenerate triangle
   CrossingPairs crossing;      ///< triangles that cross; see checkCrossing

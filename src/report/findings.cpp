@@ -100,6 +100,9 @@ constexpr Sentence SENTENCES[] = {
      "{2+more than }{0:pair of triangles crosses|pairs of triangles cross} each other{at}: "
      "{1+the points are noisy, }sheets of the surface come closer there than their points are, or "
      "a feature is thinly sampled"},
+    {FindingId::SPARSE_SHAPE, "sparse_shape", Severity::DOUBT,
+     "{n0} % of the edges are bent by more than 60 degrees: the points are too few for the shape, "
+     "and parts that are near each other may be joined, or thin ones cut off"},
     {FindingId::LONG_EDGES, "long_edges", Severity::DOUBT,
      "{0:edge inside the surface is|edges inside the surface are} much longer than the local "
      "spacing, {0?|the longest one }of {n1} spacings from {p0} to {p1}: a hole may be bridged "

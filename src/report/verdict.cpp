@@ -152,6 +152,10 @@ judge (const Report& report, const VerdictLimits& limits)
         ids.begin (), ids.end (), [&] (FindingId id) { return find (report, id) != nullptr; });
     measure (is_raised ? 1.0 : 0.0, {0.5, 2.0}, reason);
   };
+  flag ({FindingId::SPARSE_SHAPE},
+        {"the points are too few for the shape, so that parts may be joined or cut off",
+         "more points: a part needs some across its thinnest place, and gaps be wider than the "
+         "spacing"});
   flag ({FindingId::NO_AREA}, {"triangles have no area, since points lie on one line",
                                "remove points from straight edges"});
   const FindingId small = report.is_view ? FindingId::DEEP_HOLES : FindingId::SMALL_HOLES;

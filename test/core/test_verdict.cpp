@@ -91,6 +91,8 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "longer");
   report.findings = {{FindingId::GUESSED_UP, {}, {1}, {}}};
   expectIn (judge (report).cause, "guess");
+  report.findings = {{FindingId::SPARSE_SHAPE, {}, {12}, {}}};
+  expectIn (judge (report).cause, "too few for the shape");
   report.findings = {{FindingId::NO_AREA, {}, {2}, {}}};
   expectIn (judge (report).cause, "no area");
   report.findings = {{FindingId::SMALL_HOLES, {}, {1, 10}, {}}};
@@ -101,6 +103,29 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "holes stay open");
   report.findings = {{FindingId::ONE_SIDED, {}, {8}, {}}};
   expectIn (judge (report).cause, "one-sided");
+}
+
+TEST (Verdict, TooFewPointsForTheShapeAreTold)
+{
+  Positions rough = evenSphere (300), cube;
+  RandomStream random (17);
+  for (Eigen::Vector3d& p : rough)
+    p *= 0.7 + 0.6 * random.uniform ();
+  constexpr int LAST = 5;
+  const auto isEnd = [] (int i) { return i == 0 || i == LAST; };
+  for (int x = 0; x <= LAST; ++x)
+    for (int y = 0; y <= LAST; ++y)
+      for (int z = 0; z <= LAST; ++z)
+        if (isEnd (x) || isEnd (y) || isEnd (z))
+          cube.emplace_back (x, y, z);
+  const std::string told = "the points are too few for the shape";
+  const Report report = reconstruct (rough, {}).report;
+  EXPECT_TRUE (warns (report, told));
+  EXPECT_NE (report.verdict.value, Quality::GOOD);
+  for (const Positions& enough : {evenSphere (300), cube}) {
+    EXPECT_FALSE (warns (reconstruct (enough, {}).report, told));
+    EXPECT_EQ (reconstruct (enough, {}).report.verdict.value, Quality::GOOD);
+  }
 }
 
 TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)

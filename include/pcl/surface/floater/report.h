@@ -120,6 +120,7 @@ enum class FindingId
   UNUSED_POINTS,        ///< points are in no triangle
   FOLDS,                ///< edges are folded by more than 120 degrees
   CROSSING_TRIANGLES,   ///< pairs of triangles cross each other
+  SPARSE_SHAPE,         ///< so many edges are sharp that the points are too few for the shape
   LONG_EDGES,           ///< edges inside the surface are much longer than the local spacing
   NO_AREA,              ///< triangles have no area
   SMALL_COMPONENT,      ///< a component has few points
