@@ -42,16 +42,10 @@ struct CandidateLimits
   std::array<float, 3> normal_agreement{0.4F, 0.2F, 0.1F};   ///< minimum for 1, 2 and 3 votes;
                                                              ///< cosines
   std::size_t sure_ranks = 4; ///< classes of normal agreement in which a candidate of three votes
-                              ///< is sure, at most AGREEMENT_RANKS; 4: cosines above 0.875
+                              ///< is sure, as most triangles are: it enters the consensus unless it
+                              ///< contradicts the orientation. At most AGREEMENT_RANKS; 4: cosines
+                              ///< above 0.875
 };
-
-/// A candidate of three votes with a good normal agreement. It enters the consensus unless it
-/// contradicts the orientation. Most triangles are of this kind.
-inline bool
-isSure (const Candidate& candidate, const CandidateLimits& limits)
-{
-  return candidate.votes == 3 && normalAgreementRank (candidate) < limits.sure_ranks;
-}
 
 /// The triangles of all stars that are within the limits, each once, ordered by their first corner
 /// and around it. O(entries of the stars).

@@ -123,24 +123,6 @@ private:
   std::vector<Triangle> seam_;
 };
 
-// Sorts doubtful candidates. Those of three votes come first, by their class of normal agreement:
-// the orientation then spreads along triangles that agree best, like a minimum spanning forest.
-// \return number of candidates of three votes
-std::size_t
-putInOrder (std::vector<Candidate*>& candidates)
-{
-  const auto fewer_votes = std::stable_partition (
-      candidates.begin (), candidates.end (), [] (const Candidate* c) { return c->votes == 3; });
-  std::stable_sort (candidates.begin (), fewer_votes, [] (const Candidate* a, const Candidate* b) {
-    return normalAgreementRank (*a) < normalAgreementRank (*b);
-  });
-  std::sort (fewer_votes, candidates.end (), [] (const Candidate* a, const Candidate* b) {
-    return std::tie (b->votes, b->normal_agreement, a->circumradius_ratio, a->corners) <
-           std::tie (a->votes, a->normal_agreement, b->circumradius_ratio, b->corners);
-  });
-  return static_cast<std::size_t> (fewer_votes - candidates.begin ());
-}
-
 } // namespace
 
 Consensus
@@ -148,59 +130,54 @@ buildConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candi
                 const CandidateLimits& limits, std::vector<Eigen::Vector3f>& normals,
                 const RunContext& run)
 {
-  std::vector<Candidate*> doubtful;
-  for (Candidate& candidate : candidates)
-    if (!isSure (candidate, limits))
-      doubtful.push_back (&candidate);
+  // In the order of their offers: those of three votes by their class of normal agreement, so that the
+  // orientation spreads along triangles that agree best, like a minimum spanning forest.
+  CsrLists order = makeCsrLists (AGREEMENT_RANKS + 1, [&] (const auto& emit) {
+    for (Index c = 0; c < candidates.size (); ++c)
+      emit (candidates[c].votes == 3 ? normalAgreementRank (candidates[c]) : AGREEMENT_RANKS, c);
+  });
+  std::vector<Index>& ids = order.ids;
+  const std::size_t doubtful = order.offsets[limits.sure_ranks]; // from there on
+  const std::size_t fewer_votes = order.offsets[AGREEMENT_RANKS];
   run.poll ();
-  const std::size_t of_three_votes = putInOrder (doubtful);
+  std::sort (ids.begin () + static_cast<std::ptrdiff_t> (fewer_votes), ids.end (),
+             [&candidates] (Index i, Index j) {
+               const Candidate &a = candidates[i], &b = candidates[j];
+               return std::tie (b.votes, b.normal_agreement, a.circumradius_ratio, a.corners) <
+                      std::tie (a.votes, a.normal_agreement, b.circumradius_ratio, b.corners);
+             });
   run.poll ();
 
   ConsensusBuilder builder (positions, normals);
-  for (std::size_t i = of_three_votes; i < doubtful.size (); ++i)
-    builder.watch (doubtful[i]->corners);
-  std::size_t taken = 0;
-  const auto offer = [&] (Candidate& candidate, bool test_sectors) {
-    candidate.is_taken = builder.offer (candidate, test_sectors);
-    taken += candidate.is_taken ? 1 : 0;
-  };
-  ProgressLoop progress (run, limits.sure_ranks * candidates.size () + doubtful.size ());
-  for (std::size_t rank = 0; rank < limits.sure_ranks; ++rank)
-    for (Candidate& candidate : candidates) {
+  for (std::size_t i = fewer_votes; i < ids.size (); ++i)
+    builder.watch (candidates[ids[i]].corners);
+  ProgressLoop progress (run, ids.size ());
+  const auto offer = [&] (std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
       progress.next ();
-      if (candidate.votes == 3 && normalAgreementRank (candidate) == rank)
-        offer (candidate, false);
+      candidates[ids[i]].is_taken = builder.offer (candidates[ids[i]], i >= fewer_votes);
     }
-  builder.orientation ().vote (doubtful.data (), doubtful.data () + of_three_votes, run);
-  for (std::size_t i = 0; i < doubtful.size (); ++i) {
-    progress.next ();
-    offer (*doubtful[i], i >= of_three_votes);
-  }
+  };
+  offer (0, doubtful);
+  std::vector<const Candidate*> voters;
+  for (std::size_t i = doubtful; i < fewer_votes; ++i)
+    voters.push_back (&candidates[ids[i]]);
+  builder.orientation ().vote (voters.data (), voters.data () + voters.size (), run);
+  offer (doubtful, ids.size ());
 
-  std::stable_sort (
-      doubtful.begin (), doubtful.end (),
-      [] (const Candidate* a, const Candidate* b) { return a->corners[0] < b->corners[0]; });
+  const CsrLists at_corner = makeCsrLists (positions.size (), [&] (const auto& emit) {
+    for (const Index c : ids)
+      if (candidates[c].is_taken)
+        emit (candidates[c].corners[0], c);
+  });
   Consensus consensus;
-  consensus.triangles.reserve (taken);
-  consensus.votes.reserve (taken);
-  const auto append = [&] (const Candidate& candidate) {
-    if (!candidate.is_taken)
-      return;
+  consensus.triangles.reserve (at_corner.ids.size ());
+  consensus.votes.reserve (at_corner.ids.size ());
+  for (const Index c : at_corner.ids) {
+    const Candidate& candidate = candidates[c];
     consensus.triangles.push_back (
         builder.orientation ().turned (candidate.corners, candidate.clockwise));
     consensus.votes.push_back (candidate.votes);
-  };
-  auto next = doubtful.begin ();
-  for (auto first = candidates.begin (), last = first; first != candidates.end (); first = last) {
-    const Index p = first->corners[0];
-    last = std::find_if (first, candidates.end (),
-                         [p] (const Candidate& candidate) { return candidate.corners[0] != p; });
-    for (std::size_t rank = 0; rank < limits.sure_ranks; ++rank)
-      for (auto candidate = first; candidate != last; ++candidate)
-        if (candidate->votes == 3 && normalAgreementRank (*candidate) == rank)
-          append (*candidate);
-    for (; next != doubtful.end () && (*next)->corners[0] == p; ++next)
-      append (**next);
   }
   consensus.seam = std::move (builder.seam ());
   builder.orientation ().turn (normals, run);

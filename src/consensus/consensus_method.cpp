@@ -11,41 +11,29 @@
 
 namespace pcl::floater {
 namespace {
-// The consensus manifold, before its holes are filled.
-struct ConsensusMesh
-{
-  TriangleMesh mesh;
-  std::vector<Eigen::Vector3f> normals; // those of the stars, oriented like the mesh
-  std::vector<Triangle> seam;           // see Consensus
-};
-
-// Finds candidates, their consensus and its manifold part.
-// O(n + m log m) for m doubtful candidates.
-// \param positions by which the stars were made
-// \param neighbors of each point, nearest first
-// \param stars     of all points; freed when the candidates are found
-// \param spacing   of each point (see localSpacing)
-ConsensusMesh
-makeConsensusMesh (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   Stars stars, const std::vector<float>& spacing, const ConsensusLimits& limits,
-                   const RunContext& run)
+// Makes the manifold part of the consensus, before its holes are filled, and orients the normals like
+// it. O(n + m log m) for m doubtful candidates.
+// \param geometry as of makeSurface ()
+void
+makeConsensusMesh (Surface& surface, const std::vector<Eigen::Vector3d>& positions,
+                   LocalGeometry& geometry, const ConsensusLimits& limits, const RunContext& run)
 {
   // Mean normals at sharp edges, where both faces are visible from them.
+  std::vector<Eigen::Vector3f> normals = std::move (geometry.stars.normals);
   std::vector<Eigen::Vector3f> smoothed =
-      smoothedNormals (positions, neighbors, stars.normals, run);
-  std::vector<Candidate> candidates =
-      findCandidates (positions, stars, smoothed, spacing, limits.candidates, run);
-  ConsensusMesh made;
-  made.normals = std::move (stars.normals);
-  stars = {};
+      smoothedNormals (positions, geometry.neighbors, normals, run);
+  std::vector<Candidate> candidates = findCandidates (positions, geometry.stars, smoothed,
+                                                      geometry.spacing, limits.candidates, run);
+  geometry.stars = {};
   Consensus consensus =
       buildConsensus (positions, std::move (candidates), limits.candidates, smoothed, run);
-  made.seam = std::move (consensus.seam);
-  made.mesh = manifoldPart (std::move (consensus), neighbors, limits.smallest_island, run);
-  for (std::size_t p = 0; p < made.normals.size (); ++p)
-    if (made.normals[p].dot (smoothed[p]) < 0.0F)
-      made.normals[p] = -made.normals[p];
-  return made;
+  surface.orientation_seam = findOrientationSeam (consensus.seam, limits.shortest_seam);
+  surface.mesh =
+      manifoldPart (std::move (consensus), geometry.neighbors, limits.smallest_island, run);
+  for (std::size_t p = 0; p < normals.size (); ++p)
+    if (normals[p].dot (smoothed[p]) < 0.0F)
+      normals[p] = -normals[p];
+  geometry.stars.normals = std::move (normals);
 }
 
 // Decides which loops stay open, widens those by the automatic policy (see widenHoles), and fills the
@@ -95,12 +83,11 @@ orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
 
 // Leaves out the loops that were to stay open, but are no boundary any more.
 void
-leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const RunContext& run)
+leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
 {
   std::vector<std::uint8_t> is_boundary (mesh.triangle_of.size (), 0);
-  for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
-    for (const Index p : loop)
-      is_boundary[p] = 1;
+  for (const MeshEdge edge : boundaryEdges (mesh))
+    is_boundary[mesh.from (edge)] = 1;
   const auto isClosed = [&is_boundary] (const BoundaryLoop& loop) {
     return loop.keep_open && std::any_of (loop.points.begin (), loop.points.end (),
                                           [&] (Index p) { return is_boundary[p] == 0; });
@@ -117,13 +104,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   const SurfaceLimits& limits = settings.limits;
   Surface surface;
   run.beginStage (Stage::CONSENSUS);
-  ConsensusMesh consensus =
-      makeConsensusMesh (points.workingPositions (), geometry.neighbors, std::move (geometry.stars),
-                         geometry.spacing, limits.consensus, run);
-  surface.mesh = std::move (consensus.mesh);
-  surface.orientation_seam = findOrientationSeam (consensus.seam, limits.consensus.shortest_seam);
-  geometry.stars = {};
-  geometry.stars.normals = std::move (consensus.normals);
+  makeConsensusMesh (surface, points.workingPositions (), geometry, limits.consensus, run);
 
   run.beginStage (Stage::HOLES);
   closeHoles (surface, points, geometry, settings.holes, limits, run);
@@ -141,7 +122,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
     finish.limits.remaking.disturbance.closes_gaps = false;
   surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
   if (surface.finish.remade.points () > 0)
-    leaveOutClosed (surface.mesh, surface.doubtful_loops, run);
+    leaveOutClosed (surface.mesh, surface.doubtful_loops);
   return surface;
 }
 

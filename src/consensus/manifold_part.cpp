@@ -36,16 +36,15 @@ public:
       return;
     ProgressLoop progress (run);
     while (!points.empty ()) {
-      dirty_.clear ();
-      for (auto p = points.begin (); p != points.end (); ++p) {
+      std::set<Index> later;
+      for (const Index p : points) {
         progress.next ();
-        const std::size_t known = dirty_.size ();
-        keepLargestFan (*p);
-        for (std::size_t i = known; i < dirty_.size (); ++i)
-          if (dirty_[i] > *p)
-            points.insert (dirty_[i]);
+        dirty_.clear ();
+        keepLargestFan (p);
+        for (const Index q : dirty_)
+          (q > p ? points : later).insert (q);
       }
-      points = std::set<Index> (dirty_.begin (), dirty_.end ());
+      points = std::move (later);
     }
     std::size_t left = 0;
     for (Index t = 0; t < triangles_.size (); ++t) {
@@ -149,9 +148,8 @@ removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smalle
 {
   const MeshComponents components = findComponents (mesh, run);
   const std::vector<Index>& component = components.of_triangle;
-  const Index count = components.count;
-  std::vector<std::size_t> size (count, 0);
-  std::vector<std::uint8_t> is_closed (count, 1), is_island (count, 0);
+  std::vector<std::size_t> size (components.count, 0);
+  std::vector<std::uint8_t> is_closed (components.count, 1), is_island (components.count, 0);
   ProgressLoop progress (run);
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
@@ -160,9 +158,6 @@ removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smalle
       if (u == NONE)
         is_closed[component[t]] = 0;
   }
-  const auto isOfLarger = [&] (Index q, std::size_t triangles) {
-    return mesh.triangle_of[q] != NONE && size[component[mesh.triangle_of[q]]] > triangles;
-  };
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
     const std::size_t triangles = size[component[t]];
@@ -170,7 +165,7 @@ removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smalle
       continue;
     for (Index p : mesh.triangles[t])
       for (Index q : neighbors.row (p))
-        if (isOfLarger (q, triangles))
+        if (const Index u = mesh.triangle_of[q]; u != NONE && size[component[u]] > triangles)
           is_island[component[t]] = 1;
   }
   std::size_t left = 0;

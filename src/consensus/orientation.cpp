@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/orientation.h"
 
-#include "core/disjoint_sets.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -11,33 +9,29 @@
 #include <utility>
 
 namespace pcl::floater {
-namespace {
-bool
-runsClockwise (std::uint8_t clockwise, std::size_t corner)
+SignedSets::Place
+Orientation::placeOf (const Triangle& corners, std::uint8_t clockwise, std::size_t corner)
 {
-  return ((clockwise >> corner) & 1U) != 0;
+  SignedSets::Place place = sides_.find (corners[corner]);
+  place.flipped = place.flipped != (((clockwise >> corner) & 1U) != 0);
+  return place;
 }
-
-} // namespace
 
 bool
 Orientation::join (const Triangle& corners, std::uint8_t clockwise)
 {
-  const bool a = runsClockwise (clockwise, 0), b = runsClockwise (clockwise, 1),
-             c = runsClockwise (clockwise, 2);
-  const SignedSets::Place at_a = sides_.find (corners[0]), at_b = sides_.find (corners[1]),
-                          at_c = sides_.find (corners[2]);
-  const auto contradicts = [] (const SignedSets::Place& p, const SignedSets::Place& q,
-                               bool opposite) {
-    return p.root == q.root && (p.flipped != q.flipped) != opposite;
+  using Place = SignedSets::Place;
+  const Place a = placeOf (corners, clockwise, 0), b = placeOf (corners, clockwise, 1),
+              c = placeOf (corners, clockwise, 2);
+  const auto contradict = [] (const Place& p, const Place& q) {
+    return p.root == q.root && p.flipped != q.flipped;
   };
-  if (contradicts (at_a, at_b, a != b) || contradicts (at_a, at_c, a != c) ||
-      contradicts (at_b, at_c, b != c))
+  if (contradict (a, b) || contradict (a, c) || contradict (b, c))
     return false;
-  if (at_a.root != at_b.root)
-    sides_.join (corners[0], corners[1], a != b);
-  if (at_a.root != at_c.root)
-    sides_.join (corners[0], corners[2], a != c);
+  if (a.root != b.root)
+    sides_.join (a.root, b.root, a.flipped != b.flipped);
+  if (a.root != c.root)
+    sides_.join (a.root, c.root, a.flipped != c.flipped);
   return true;
 }
 
@@ -53,12 +47,10 @@ Orientation::vote (const Candidate* const* first, const Candidate* const* last,
       progress.next ();
       const Candidate& c = **candidate;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1U) % 3U;
-        const SignedSets::Place a = sides_.find (c.corners[i]), b = sides_.find (c.corners[j]);
-        const bool opposite = (runsClockwise (c.clockwise, i) != runsClockwise (c.clockwise, j)) !=
-                              (a.flipped != b.flipped);
+        const SignedSets::Place a = placeOf (c.corners, c.clockwise, i),
+                                b = placeOf (c.corners, c.clockwise, (i + 1U) % 3U);
         if (a.root != b.root)
-          sums[std::minmax (a.root, b.root)] += opposite ? -c.votes : c.votes;
+          sums[std::minmax (a.root, b.root)] += a.flipped != b.flipped ? -c.votes : c.votes;
       }
     }
     if (sums.empty ())
@@ -81,7 +73,7 @@ Orientation::vote (const Candidate* const* first, const Candidate* const* last,
 Triangle
 Orientation::turned (Triangle corners, std::uint8_t clockwise)
 {
-  if (runsClockwise (clockwise, 0) != sides_.find (corners[0]).flipped)
+  if (placeOf (corners, clockwise, 0).flipped)
     std::swap (corners[1], corners[2]);
   return corners;
 }

@@ -39,6 +39,9 @@ public:
   void turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run);
 
 private:
+  // The place of a corner; `flipped`: the triangle is clockwise seen from the front of its set.
+  SignedSets::Place placeOf (const Triangle& corners, std::uint8_t clockwise, std::size_t corner);
+
   SignedSets sides_;
 };
 

@@ -62,16 +62,6 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
   return points;
 }
 
-std::vector<Eigen::Vector2d>
-layOnCircle (const std::vector<double>& chords)
-{
-  std::vector<Eigen::Vector2d> uv;
-  uv.reserve (chords.size ());
-  for (const double fraction : placeOnCurve (chords, 0, chords.size (), 2.0 * PI))
-    uv.emplace_back (std::cos (2.0 * PI * fraction), std::sin (2.0 * PI * fraction));
-  return uv;
-}
-
 // Lays the corners at given positions, and the points between two corners on the side between them.
 // \param corner_points indices of the corners in the loop, ascending
 // \param places        positions of the corners in the plane, anti-clockwise
@@ -109,16 +99,20 @@ layLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>
                 : options.loop_spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (step)
                                                                    : step;
   }
-  if (options.curve == Domain::CIRCLE)
-    return layOnCircle (chords);
+  std::vector<Eigen::Vector2d> places; // on the unit circle
+  const auto addPlace = [&places] (double angle) {
+    places.emplace_back (std::cos (angle), std::sin (angle));
+  };
+  if (options.curve == Domain::CIRCLE) {
+    for (const double fraction : placeOnCurve (chords, 0, count, 2.0 * PI))
+      addPlace (2.0 * PI * fraction);
+    return places;
+  }
   const int sides = options.curve == Domain::SQUARE ? 4 : std::max (3, options.polygon_sides);
   const std::size_t corners = std::min (count, static_cast<std::size_t> (sides));
-  std::vector<Eigen::Vector2d> places; // of a regular polygon
-  for (std::size_t c = 0; c < corners; ++c) {
-    const double angle =
-        2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) - 0.5 * PI;
-    places.emplace_back (std::cos (angle), std::sin (angle));
-  }
+  for (std::size_t c = 0; c < corners; ++c)
+    addPlace (2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) -
+              0.5 * PI);
   return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 

@@ -69,10 +69,9 @@ parameterize (const std::vector<Eigen::Vector3d>& positions, Stars stars,
   result.nonzeros = system.nonzeros ();
 
   run.beginStage (Stage::SOLVE);
-  Solution solution = solve (system, options.solver, run);
-  result.problem = solution.problem;
-  const Eigen::MatrixX2d solved = std::move (solution.uv);
-  result.solution = std::move (solution);
+  result.solution = solve (system, options.solver, run);
+  const Eigen::MatrixX2d solved = std::move (result.solution.uv);
+  result.problem = result.solution.problem;
   if (result.problem)
     return result;
 

@@ -3,6 +3,7 @@
 #include "floater/planar_delaunay.h"
 
 #include "core/exact.h"
+#include "core/geometry.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -36,32 +37,31 @@ triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loo
   for (std::size_t i = 0; i < h; ++i) {
     const Eigen::Vector2d& a = uv[loop[i]];
     const Eigen::Vector2d edge = uv[loop[(i + 1) % h]] - a;
-    const double twice_area = a.x () * edge.y () - a.y () * edge.x ();
+    const double twice_area = cross (a, edge);
     sqr_safe =
         std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
     corners.emplace_back (std::atan2 (a.y (), a.x ()), i);
   }
   std::sort (corners.begin (), corners.end ());
-  std::vector<std::uint8_t> outside (uv.size (), 0);
+  std::vector<std::uint8_t> is_in_loop (uv.size (), 0);
+  for (const Index p : loop)
+    is_in_loop[p] = 1;
   for (Index p = 0; p < uv.size (); ++p) {
-    if (!(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
+    if (is_in_loop[p] != 0 || !(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
       continue;
     // The edges beside p's direction, and one more on each side because of rounding.
     const auto after = static_cast<std::size_t> (
         std::upper_bound (corners.begin (), corners.end (),
                           std::make_pair (std::atan2 (uv[p].y (), uv[p].x ()), h)) -
         corners.begin ());
+    bool is_inside = true;
     for (std::size_t step = 0; step < 4; ++step) {
       const std::size_t i = corners[(after + h + step - 2) % h].second;
-      if (!isAntiClockwise (uv[loop[i]], uv[loop[(i + 1) % h]], uv[p]))
-        outside[p] = 1;
+      is_inside = is_inside && isAntiClockwise (uv[loop[i]], uv[loop[(i + 1) % h]], uv[p]);
     }
-  }
-  for (const Index p : loop)
-    outside[p] = 0;
-  for (std::size_t p = 0; p < uv.size (); ++p)
-    if (outside[p] != 0)
+    if (!is_inside)
       uv[p].setConstant (std::numeric_limits<double>::quiet_NaN ());
+  }
   return triangulateHull (uv);
 }
 

@@ -71,33 +71,7 @@ checkFacing (const Input& input, const Options& options)
 }
 
 namespace {
-// Makes them points that are not finite.
-template <typename MayGo>
-void
-leaveOutInvalid (Input& input, const MayGo& mayGo, const InvalidPointLimits& limits, Report& report)
-{
-  const Eigen::Vector3d shift (input.shift.data ());
-  const InvalidPoints found = findInvalidPoints (input.positions, shift, limits);
-  const auto leaveOut = [&] (const std::vector<Index>& rows) {
-    double count = 0.0;
-    for (const Index row : rows)
-      if (mayGo (row)) {
-        input.positions[row].setConstant (std::numeric_limits<double>::quiet_NaN ());
-        ++count;
-      }
-    return count;
-  };
-  if (const double count = leaveOut (found.pixels); count > 0.0) {
-    constexpr double PERCENT = 100.0;
-    const Eigen::Vector3d place = found.place + shift;
-    addFinding (report, FindingId::INVALID_PIXELS, {}, {}, count,
-                PERCENT * count / static_cast<double> (input.positions.size ()), place.x (),
-                place.y (), place.z ());
-  }
-  if (const double count = leaveOut (found.cells); count > 0.0)
-    addFinding (report, FindingId::INVALID_CELLS, {}, {}, count, found.height, found.gap);
-}
-
+// Makes points that stand for no measurement not finite, and removes gross outliers.
 Problem
 cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
             Report& report)
@@ -108,7 +82,27 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
     return options.remove_outliers &&
            !std::binary_search (given.begin (), given.end (), input.cloud_index[row]);
   };
-  leaveOutInvalid (input, mayGo, limits.invalid, report);
+  const Eigen::Vector3d shift (input.shift.data ());
+  const InvalidPoints invalid = findInvalidPoints (input.positions, shift, limits.invalid);
+  const auto leaveOut = [&] (const std::vector<Index>& rows) {
+    double count = 0.0;
+    for (const Index row : rows)
+      if (mayGo (row)) {
+        input.positions[row].setConstant (std::numeric_limits<double>::quiet_NaN ());
+        ++count;
+      }
+    return count;
+  };
+  if (const double count = leaveOut (invalid.pixels); count > 0.0) {
+    constexpr double PERCENT = 100.0;
+    const Eigen::Vector3d place = invalid.place + shift;
+    addFinding (report, FindingId::INVALID_PIXELS, {}, {}, count,
+                PERCENT * count / static_cast<double> (input.positions.size ()), place.x (),
+                place.y (), place.z ());
+  }
+  if (const double count = leaveOut (invalid.cells); count > 0.0)
+    addFinding (report, FindingId::INVALID_CELLS, {}, {}, count, invalid.height, invalid.gap);
+
   constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are not outliers
   const GrossOutliers found = findGrossOutliers (input.positions, run, limits.gross_outliers);
   if (found.isolated.empty () && found.unbearable.empty ())

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/check_options.h"
 
-#include "floater/solvers/solver.h"
 #include "options/option_rows.h"
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 #include "local/curves.h"
 #include "local/planes.h"
 #include "local/scatter.h"
-#include "local/stars.h"
 #include "mesh/check.h"
 #include "mesh/vertex_splits.h"
 #include "points/invalid_points.h"

@@ -37,15 +37,6 @@ cloudOf (const Input& input)
   return cloud;
 }
 
-// pcl::search::KdTree as a search method for the core. With estimateNormals, TW 385 as built from PCL;
-// the core's own are faster and use all threads. Both copy the points, in single precision.
-std::unique_ptr<NeighborSearch>
-makePclSearch (const Input& input)
-{
-  return std::make_unique<SearchMethod<pcl::PointXYZ>> (
-      pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> (), cloudOf (input));
-}
-
 // For each point of the whole cloud, by pcl::NormalEstimation: normal of the plane through it and its k
 // nearest; NaN for points that are not selected or not finite.
 std::vector<Eigen::Vector3f>
@@ -128,25 +119,6 @@ textureOptions (double largest_stretch, Options& options)
       tell (FIRST_PART + (1.0 - FIRST_PART) * done);
     };
   }
-  return texture;
-}
-
-// The texture coordinates of a mesh. Their failure becomes the failure of the run.
-TextureCoordinates
-computeTexture (const std::vector<Eigen::Vector3d>& positions, const TextureOptions& options,
-                Result& result)
-{
-  Report& report = result.report;
-  TextureCoordinates texture = computeTextureCoordinates (positions, result.triangles, options);
-  if (texture.status != RunStatus::SUCCESS) {
-    result.triangles.clear ();
-    report.status = texture.status;
-    report.message = "texture coordinates: " + texture.message;
-  }
-  else if (texture.flipped > 0)
-    report.warnings.push_back (std::to_string (texture.flipped) +
-                               " triangles are upside down in the texture: they are too small "
-                               "beside the mesh for 32 bits");
   return texture;
 }
 
@@ -276,9 +248,12 @@ ReconstructionState::triangulatePoints (Input&& input)
   std::vector<bool> is_selected (input.cloud_size, false);
   for (const std::uint32_t p : input.cloud_index)
     is_selected[p] = true;
-  std::unique_ptr<NeighborSearch> by_pcl; // TW 385 as built from PCL
+  // TW 385 as built from PCL; the core's own are faster and use all threads. Both copy the points, in
+  // single precision.
+  std::unique_ptr<NeighborSearch> by_pcl;
   if (options.disc.as_published && input.search == nullptr) {
-    by_pcl = makePclSearch (input);
+    by_pcl = std::make_unique<SearchMethod<pcl::PointXYZ>> (
+        pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>> (), cloudOf (input));
     input.search = by_pcl.get ();
     if (input.normals.empty ())
       input.normals = estimateNormals (input, options.neighbors.k);
@@ -297,7 +272,17 @@ ReconstructionState::triangulatePoints (Input&& input)
   Result result = reconstruct (std::move (input), options);
   if (computes_texture && result.report.status == RunStatus::SUCCESS) {
     texture_options.whole_discs = result.report.topology == Topology::DISC;
-    data_->texture = computeTexture (positions, texture_options, result);
+    data_->texture = computeTextureCoordinates (positions, result.triangles, texture_options);
+    Report& report = result.report;
+    if (data_->texture.status != RunStatus::SUCCESS) { // becomes the failure of the run
+      result.triangles.clear ();
+      report.status = data_->texture.status;
+      report.message = "texture coordinates: " + data_->texture.message;
+    }
+    else if (data_->texture.flipped > 0)
+      report.warnings.push_back (std::to_string (data_->texture.flipped) +
+                                 " triangles are upside down in the texture: they are too small "
+                                 "beside the mesh for 32 bits");
   }
   data_->report = std::move (result.report);
   if (data_->report.status == RunStatus::SUCCESS) {

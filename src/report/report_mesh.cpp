@@ -116,25 +116,6 @@ reportUnused (const Points& points, const MeshExamination& found, Report& report
   addFinding (report, FindingId::UNUSED_POINTS, points, {*first}, report.unused.size ());
 }
 
-void
-reportSystem (const Parameterization& parameterization, Statistics& statistics)
-{
-  const Solution& solution = parameterization.solution;
-  statistics.unknowns = parameterization.unknowns;
-  statistics.nnz_matrix = parameterization.nonzeros;
-  statistics.nnz_factors = solution.nnz_factors;
-  statistics.fill_in = parameterization.nonzeros == 0
-                           ? 0.0
-                           : static_cast<double> (solution.nnz_factors) /
-                                 static_cast<double> (parameterization.nonzeros);
-  statistics.residual = solution.residual;
-  statistics.relative_residual = solution.relative_residual;
-  statistics.iterations_u = solution.iterations[0];
-  statistics.iterations_v = solution.iterations[1];
-  statistics.reciprocal_condition = solution.reciprocal_condition;
-  statistics.factorization_bytes = solution.peak_bytes;
-}
-
 // The limits that cut off all triangles, each with the value that it was compared with.
 std::string
 whyNothingIsLeft (const Trimming& trimming, const TrimmingOptions& options)
@@ -171,7 +152,20 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
   if (boundary.largest_step > LONG_STEP)
     addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
                 boundary.largest_step);
-  reportSystem (parameterization, report.statistics);
+  const Solution& solution = parameterization.solution;
+  Statistics& statistics = report.statistics;
+  statistics.unknowns = parameterization.unknowns;
+  statistics.nnz_matrix = parameterization.nonzeros;
+  statistics.nnz_factors = solution.nnz_factors;
+  if (parameterization.nonzeros > 0)
+    statistics.fill_in = static_cast<double> (solution.nnz_factors) /
+                         static_cast<double> (parameterization.nonzeros);
+  statistics.residual = solution.residual;
+  statistics.relative_residual = solution.relative_residual;
+  statistics.iterations_u = solution.iterations[0];
+  statistics.iterations_v = solution.iterations[1];
+  statistics.reciprocal_condition = solution.reciprocal_condition;
+  statistics.factorization_bytes = solution.peak_bytes;
   if (parameterization.uv.empty ())
     return;
   const Eigen::Vector2d nowhere =

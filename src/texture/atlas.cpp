@@ -50,9 +50,8 @@ constexpr std::size_t MOST_WORK = 100'000'000, MOST_WORK_OF_SHAPE = 10'000;
 void
 joinRuns (std::vector<CellRun>& runs)
 {
-  std::sort (runs.begin (), runs.end (), [] (const CellRun& a, const CellRun& b) {
-    return a.first != b.first ? a.first < b.first : a.last < b.last;
-  });
+  std::sort (runs.begin (), runs.end (),
+             [] (const CellRun& a, const CellRun& b) { return a.first < b.first; });
   std::size_t kept = 0;
   for (const CellRun& run : runs) {
     if (kept > 0 && run.first <= runs[kept - 1].last + 1)
@@ -330,26 +329,19 @@ turnAndScale (ChartLayout& chart, double area, double longest)
   constexpr double SHORTEST = 1.0 / 16.0; // rounding leaves triangles of that size as they are
   constexpr double LEAST_AREA = 1e-30;    // above zero, so that it can be scaled
   const Eigen::Vector2d up = longSideOfBox (chart), right (up.y (), -up.x ());
-  const auto scaleAll = [&chart] (double scale, const Eigen::Vector2d& x,
-                                  const Eigen::Vector2d& y) {
-    Eigen::AlignedBox2d box;
-    for (Eigen::Vector2d& p : chart.uv) {
-      p = scale * Eigen::Vector2d (x.dot (p), y.dot (p));
-      box.extend (p);
-    }
-    return box;
-  };
   double plane_area = 0.0;
   for (const auto& [a, b, c] : chart.corners)
     plane_area += 0.5 * cross (chart.uv[b] - chart.uv[a], chart.uv[c] - chart.uv[a]);
-  Eigen::AlignedBox2d box =
-      scaleAll (std::sqrt (std::max (area, LEAST_AREA) / plane_area), right, up);
+  const double scale = std::sqrt (std::max (area, LEAST_AREA) / plane_area);
+  Eigen::AlignedBox2d box;
+  for (Eigen::Vector2d& p : chart.uv) {
+    p = scale * Eigen::Vector2d (right.dot (p), up.dot (p));
+    box.extend (p);
+  }
   const double length = box.sizes ().maxCoeff ();
-  if (length < SHORTEST || length > longest)
-    box = scaleAll ((length < SHORTEST ? SHORTEST : longest) / length, Eigen::Vector2d::UnitX (),
-                    Eigen::Vector2d::UnitY ());
+  const double factor = std::clamp (length, SHORTEST, longest) / length;
   for (Eigen::Vector2d& p : chart.uv)
-    p -= box.min ();
+    p = factor * p - factor * box.min ();
 }
 
 // Rotates by quarter turns anti-clockwise, in a box that stays at the origin.

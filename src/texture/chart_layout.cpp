@@ -22,7 +22,7 @@ namespace {
 constexpr int MOST_STEPS = 10;          // of the relaxation; later ones hardly lower the stretch
 constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
 
-// Neighbours of the inner vertices and their mean value weights.
+// Neighbours of the vertices and their mean value weights.
 struct Weights
 {
   CsrLists neighbors;
@@ -34,17 +34,9 @@ meanValueWeights (const MeshPiece& chart)
 {
   constexpr double SMALLEST_TANGENT = 1e-6; // of half an angle
   const TriangleMesh& mesh = chart.mesh;
-  std::vector<std::uint8_t> is_inner (chart.positions.size (), 1);
-  for (const Index p : chart.loop)
-    is_inner[p] = 0;
-  // At an inner vertex, each edge ends one triangle and begins another.
-  Weights weights;
-  weights.neighbors = makeCsrLists (chart.positions.size (), [&] (const auto& emit) {
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (is_inner[mesh.from ({t, side})] != 0)
-          emit (mesh.from ({t, side}), 3 * t + side);
-  });
+  // Each edge ends one triangle and begins another, except at the boundary, whose vertices need no
+  // weights.
+  Weights weights{MeshRings (mesh).leaving, {}};
   const auto tangentAt = [&] (Index t, std::uint8_t corner) {
     const auto toCorner = [&] (std::uint8_t other) -> Eigen::Vector3d {
       const Triangle& c = mesh.triangles[t];
@@ -57,12 +49,15 @@ meanValueWeights (const MeshPiece& chart)
   weights.values.reserve (weights.neighbors.ids.size ());
   for (Index& id : weights.neighbors.ids) {
     const MeshEdge edge{id / 3, static_cast<std::uint8_t> (id % 3)}, mate = mesh.mate (edge);
-    const double length =
-        (chart.positions[mesh.to (edge)] - chart.positions[mesh.from (edge)]).norm ();
+    id = mesh.to (edge);
+    const double length = (chart.positions[id] - chart.positions[mesh.from (edge)]).norm ();
+    if (mate.triangle == NONE || !(length > 0.0)) {
+      weights.values.push_back (1.0);
+      continue;
+    }
     const double sum = tangentAt (edge.triangle, TriangleMesh::next (edge.side)) +
                        tangentAt (mate.triangle, TriangleMesh::previous (mate.side));
-    weights.values.push_back (length > 0.0 ? sum / length : 1.0);
-    id = mesh.to (edge);
+    weights.values.push_back (sum / length);
   }
   return weights;
 }
@@ -156,7 +151,7 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vect
   const std::vector<Triangle>& triangles = chart.mesh.triangles;
   const MeshRings rings (chart.mesh);
   const auto targetOf = [&] (Index p) -> Eigen::Vector2d {
-    const Eigen::Vector2d mean = rings.meanAround (chart.mesh, uv, p);
+    const Eigen::Vector2d mean = rings.meanAround (uv, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
       return mean;
     // A vertex of one triangle lies to the right of the line from the vertex before to the one

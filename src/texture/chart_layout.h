@@ -6,7 +6,6 @@
 #include "core/run_context.h"
 #include "texture/distortion_descent.h"
 
-#include <array>
 #include <vector>
 
 namespace pcl::floater {

@@ -3,6 +3,7 @@
 #include "texture/chart_mesh.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 
 #include <Eigen/LU>
 
@@ -10,6 +11,35 @@
 #include <cmath>
 
 namespace pcl::floater {
+MeshPiece
+cutOut (const std::vector<Triangle>& triangles, const std::vector<Index>& piece,
+        const std::vector<Eigen::Vector3d>& positions)
+{
+  MeshPiece result;
+  result.points.reserve (3 * piece.size ());
+  for (const Index t : piece)
+    result.points.insert (result.points.end (), triangles[t].begin (), triangles[t].end ());
+  sortUnique (result.points);
+  result.points.shrink_to_fit ();
+  result.positions = valuesAt (positions, result.points);
+  result.mesh.triangles.reserve (piece.size ());
+  for (const Index t : piece) {
+    Triangle corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = static_cast<Index> (
+          std::lower_bound (result.points.begin (), result.points.end (), triangles[t][i]) -
+          result.points.begin ());
+    result.mesh.triangles.push_back (corners);
+  }
+  if (!result.mesh.connect (result.points.size (), 1))
+    return result;
+  // By Euler's formula.
+  std::vector<std::vector<Index>> loops = boundaryLoops (result.mesh, 1);
+  if (loops.size () == 1 && 2 * result.points.size () == piece.size () + loops.front ().size () + 2)
+    result.loop = std::move (loops.front ());
+  return result;
+}
+
 MeshRings::MeshRings (const TriangleMesh& mesh)
     : leaving (makeCsrLists (mesh.triangle_of.size (),
                              [&mesh] (const auto& emit) {
@@ -23,6 +53,14 @@ MeshRings::MeshRings (const TriangleMesh& mesh)
     after[mesh.from (edge)] = mesh.to (edge);
     before[mesh.to (edge)] = mesh.from (edge);
   }
+  neighbors = makeCsrLists (before.size (), [&] (const auto& emit) {
+    for (Index p = 0; p < before.size (); ++p) {
+      for (const Index id : leaving.row (p))
+        emit (p, mesh.to ({id / 3, static_cast<std::uint8_t> (id % 3)}));
+      if (before[p] != NONE)
+        emit (p, before[p]);
+    }
+  });
 }
 
 FlatTriangle

@@ -1,14 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is around the points of a chart, and the shapes of its triangles.
+// A chart as a mesh of its own, what is around its points, and the shapes of its triangles.
 #pragma once
 
-#include "texture/mesh_piece.h"
+#include "mesh/triangle_mesh.h"
 
 #include <array>
 #include <vector>
 
 namespace pcl::floater {
+/// Some triangles of a larger mesh, with their own vertex numbers.
+struct MeshPiece
+{
+  TriangleMesh mesh;         ///< connected (TriangleMesh::connect), if it is a manifold
+  std::vector<Index> points; ///< of the larger mesh, ascending: one for each vertex
+  std::vector<Eigen::Vector3d> positions; ///< of the vertices
+  std::vector<Index> loop; ///< vertices of the boundary in order, the piece on the left, from the
+                           ///< smallest one on; empty if the piece is not a disc
+};
+
+/// O(triangles log triangles).
+/// \param triangles of the larger mesh
+/// \param piece     those of the piece
+/// \param positions of the points of the larger mesh
+MeshPiece
+cutOut (const std::vector<Triangle>& triangles, const std::vector<Index>& piece,
+        const std::vector<Eigen::Vector3d>& positions);
+
 /// What is around each point of a mesh.
 struct MeshRings
 {
@@ -17,18 +35,18 @@ struct MeshRings
   CsrLists leaving;          ///< edges that leave it, as 3 triangle + side
   std::vector<Index> before; ///< neighbour along the boundary, NONE if inside
   std::vector<Index> after;  ///< the other one
+  CsrLists neighbors;        ///< in the order of these edges, then `before`
 
   /// The mean value of the neighbours of a vertex; at the boundary, of those along it.
   template <typename Vector>
-  Vector meanAround (const TriangleMesh& mesh, const std::vector<Vector>& values, Index p) const
+  Vector meanAround (const std::vector<Vector>& values, Index p) const
   {
     if (before[p] != NONE)
       return 0.5 * (values[before[p]] + values[after[p]]);
-    const Row row = leaving.row (p);
     Vector sum = Vector::Zero ();
-    for (const Index id : row)
-      sum += values[mesh.to ({id / 3, static_cast<std::uint8_t> (id % 3)})];
-    return sum / static_cast<double> (row.size ());
+    for (const Index q : neighbors.row (p))
+      sum += values[q];
+    return sum / static_cast<double> (neighbors.row (p).size ());
   }
 };
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/charts.h"
-#include "texture/stretch.h"
 #include "texture/texture_method.h"
 
 #include "core/parallel.h"
@@ -81,11 +80,6 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
   const double largest_stretch = options.largest_stretch;
   const SingleBlasThread single; // more are slower on small matrices, and change the last digits
   const RunContext within = run.withThreads (1).withinStage ();
-  const auto shareMoved = [&] (const ChartLayout& chart) {
-    const auto moved = std::count_if (chart.points.begin (), chart.points.end (),
-                                      [&] (Index p) { return smooth[p] != positions[p]; });
-    return static_cast<double> (moved) / static_cast<double> (chart.points.size ());
-  };
   // Cuts a layout of the smooth surface where needed, and fits it to the true one. Where smoothing
   // has removed more than noise, the chart is laid out without it.
   const auto finish = [&] (ChartLayout first, const ChartCutter& by_smooth,
@@ -96,12 +90,14 @@ layOutCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posi
     Layouts parts, finished;
     by_smooth.layOutParts (std::move (first), parts);
     for (ChartLayout& chart : parts) {
-      const double moved = shareMoved (chart);
-      if (moved > 0.0)
+      const auto moved = std::count_if (chart.points.begin (), chart.points.end (),
+                                        [&] (Index p) { return smooth[p] != positions[p]; });
+      const auto share = static_cast<double> (moved) / static_cast<double> (chart.points.size ());
+      if (moved > 0)
         refineLayout (mesh.triangles, positions, descent, within, chart);
-      const double most = moved > limits.noisy ? limits.wrong : limits.too_much;
+      const double most = share > limits.noisy ? limits.wrong : limits.too_much;
       ChartLayout other;
-      if (moved > 0.0 && chart.stretch > std::max (most, largest_stretch))
+      if (moved > 0 && chart.stretch > std::max (most, largest_stretch))
         other = by_true.layOut (chart.triangles);
       if (!other.uv.empty () && other.stretch < chart.stretch)
         by_true.layOutParts (std::move (other), finished);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <queue>
+#include <tuple>
 #include <unordered_map>
 
 namespace pcl::floater {
@@ -42,19 +43,6 @@ oneMinusCosine (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return lengths > 0.0 ? 1.0 - a.dot (b) / lengths : 0.0;
 }
 
-// Numbers charts in the order of their first triangles.
-void
-renumber (MeshComponents& parts)
-{
-  std::vector<Index> number (parts.count, NONE);
-  parts.count = 0;
-  for (Index& part : parts.of_triangle) {
-    if (number[part] == NONE)
-      number[part] = parts.count++;
-    part = number[part];
-  }
-}
-
 class ChartMerger
 {
 public:
@@ -82,39 +70,36 @@ public:
     }
     for (Index t = 0; t < mesh.triangles.size (); ++t)
       for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index other = mesh.neighbors[t][side];
-        const Index own = facets.of_triangle[t];
         const MeshEdge edge{t, side};
-        if (other == NONE)
-          charts_[own].border.push_back (edge);
-        else if (facets.of_triangle[other] != own) {
-          charts_[own].border.push_back (edge);
-          const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
-          const Index beside = facets.of_triangle[other];
-          Contact& contact = charts_[own].contacts[beside];
-          contact.length += length;
-          contact.crease += length * oneMinusCosine (charts_[own].sum, charts_[beside].sum);
-          charts_[own].seam += length;
-        }
+        const Index other = mesh.neighbors[t][side], own = facets.of_triangle[t];
+        const Index beside = other == NONE ? NONE : facets.of_triangle[other];
+        if (beside == own)
+          continue;
+        charts_[own].border.push_back (edge);
+        if (beside == NONE)
+          continue;
+        const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
+        Contact& contact = charts_[own].contacts[beside];
+        contact.length += length;
+        contact.crease += length * oneMinusCosine (charts_[own].sum, charts_[beside].sum);
+        charts_[own].seam += length;
       }
   }
 
   // Joins the facets; to be called once.
   MeshComponents merged (const RunContext& run)
   {
-    for (Index a = 0; a < charts_.size (); ++a)
-      offerAll (a);
-    takeOffers (run);
-    // Remaining crumbs join the cheapest neighbour.
-    is_for_crumbs_ = true;
-    for (Index a = 0; a < charts_.size (); ++a)
-      offerAll (a);
-    takeOffers (run);
-    MeshComponents parts;
-    parts.of_triangle.resize (mesh_.triangles.size ());
-    for (std::size_t t = 0; t < mesh_.triangles.size (); ++t)
-      parts.of_triangle[t] = chartOf (static_cast<Index> (t));
-    parts.count = facets_.count;
+    // At the end, crumbs that remain join the cheapest neighbour.
+    for (const bool is_for_crumbs : {false, true}) {
+      is_for_crumbs_ = is_for_crumbs;
+      for (Index a = 0; a < charts_.size (); ++a)
+        for (const auto& [b, contact] : charts_[a].contacts)
+          offer (a, b);
+      takeOffers (run);
+    }
+    MeshComponents parts = facets_;
+    for (Index& part : parts.of_triangle)
+      part = find (part);
     return parts;
   }
 
@@ -126,9 +111,7 @@ private:
 
     bool operator<(const Offer& other) const // the queue has the largest first
     {
-      if (cost != other.cost)
-        return cost > other.cost;
-      return a != other.a ? a > other.a : b > other.b;
+      return std::tie (cost, a, b) > std::tie (other.cost, other.a, other.b);
     }
   };
 
@@ -209,12 +192,6 @@ private:
       }
     }
     offers_ = {};
-  }
-
-  void offerAll (Index a)
-  {
-    for (const auto& [b, contact] : charts_[a].contacts)
-      offer (a, b);
   }
 
   void offer (Index a, Index b)
@@ -378,7 +355,14 @@ findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
   MeshComponents charts =
       ChartMerger (mesh, positions, area_vectors, facets, halves, limits).merged (run);
   straightenSeams (mesh, positions, area_vectors, limits, run, charts);
-  renumber (charts);
+  // Numbers the charts in the order of their first triangles.
+  std::vector<Index> number (charts.count, NONE);
+  charts.count = 0;
+  for (Index& chart : charts.of_triangle) {
+    if (number[chart] == NONE)
+      number[chart] = charts.count++;
+    chart = number[chart];
+  }
   return charts;
 }
 

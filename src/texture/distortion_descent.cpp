@@ -5,6 +5,7 @@
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/order_statistics.h"
+#include "texture/stretch.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -158,13 +159,11 @@ private:
   void newton (const RunContext& run, Plane& x, double& energy) const
   {
     Cholesky solver;
-    bool is_analyzed = false;
     for (int step = 0; step < limits.newton_steps; ++step) {
       run.poll ();
       Eigen::SparseMatrix<double> hessian = hessianOf (x);
-      if (!is_analyzed)
+      if (step == 0)
         solver.analyzePattern (hessian);
-      is_analyzed = true;
       const Plane gradient = gradientOf (x);
       const double last_energy = energy;
       const auto goByHessian = [&] {
@@ -335,10 +334,7 @@ isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv
 bool
 isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
 {
-  return areFinite (uv) &&
-         std::all_of (triangles.begin (), triangles.end (), [&] (const Triangle& t) {
-           return isAntiClockwise (uv[t[0]], uv[t[1]], uv[t[2]]);
-         });
+  return areFinite (uv) && flippedTriangles (triangles, uv).empty ();
 }
 
 } // namespace pcl::floater

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/geometry.h"
 #include "core/parallel.h"
 #include "texture/charts.h"
 
@@ -13,10 +12,8 @@ areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
              const RunContext& run)
 {
   std::vector<Eigen::Vector3d> vectors (mesh.triangles.size ());
-  parallelPoints (run, vectors.size (), [&] (Index t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    vectors[t] = areaVector (positions[a], positions[b], positions[c]);
-  });
+  parallelPoints (run, vectors.size (),
+                  [&] (Index t) { vectors[t] = areaVectorOf (mesh.triangles[t], positions); });
   return vectors;
 }
 

@@ -52,8 +52,7 @@ struct Smoother
     is_noisy = findNoise ();
     if (std::find (is_noisy.begin (), is_noisy.end (), 1) == is_noisy.end ())
       return current;
-    for (int ring = 0; ring < limits.rings; ++ring)
-      is_noisy = widened (is_noisy);
+    widen (is_noisy);
     const std::vector<double> reach = findReach ();
     std::vector<Eigen::Vector3d> next = current;
     for (int round = 0; round < limits.rounds; ++round) {
@@ -87,29 +86,8 @@ private:
     });
   }
 
-  // Calls work (q) for every neighbour of a vertex.
-  template <typename Work>
-  void visitNeighbors (Index p, const Work& work) const
-  {
-    for (const Index id : rings.leaving.row (p))
-      work (mesh.to ({id / 3, static_cast<std::uint8_t> (id % 3)}));
-    if (rings.before[p] != NONE)
-      work (rings.before[p]);
-  }
-
-  // The angle between the normals at an edge: positive where the surface is convex.
-  double bendAt (const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<Eigen::Vector3d>& area_vectors, MeshEdge edge) const
-  {
-    const Eigen::Vector3d& here = area_vectors[edge.triangle];
-    const Eigen::Vector3d& beyond = area_vectors[mesh.neighbors[edge.triangle][edge.side]];
-    const Eigen::Vector3d along = positions[mesh.to (edge)] - positions[mesh.from (edge)];
-    const Eigen::Vector3d turn = here.cross (beyond);
-    const double angle = std::atan2 (turn.norm (), here.dot (beyond));
-    return turn.dot (along) >= 0.0 ? angle : -angle;
-  }
-
-  // Sums the bends of marked vertices.
+  // Sums the bends of marked vertices: the angles between the normals at their edges, outwards where
+  // the surface is convex.
   void measureBends (const std::vector<Eigen::Vector3d>& positions,
                      const std::vector<std::uint8_t>& is_marked)
   {
@@ -120,10 +98,14 @@ private:
       Bends& bends = bends_at[p] = {};
       for (const Index id : rings.leaving.row (p)) {
         const MeshEdge edge{id / 3, static_cast<std::uint8_t> (id % 3)};
-        if (mesh.neighbors[edge.triangle][edge.side] == NONE)
+        const Index other = mesh.neighbors[edge.triangle][edge.side];
+        if (other == NONE)
           continue;
-        const double bend = bendAt (positions, area_vectors, edge);
-        (bend > 0.0 ? bends.outwards : bends.inwards) += std::abs (bend);
+        const Eigen::Vector3d &here = area_vectors[edge.triangle], &beyond = area_vectors[other];
+        const Eigen::Vector3d along = positions[mesh.to (edge)] - positions[mesh.from (edge)];
+        const Eigen::Vector3d turn = here.cross (beyond);
+        (turn.dot (along) >= 0.0 ? bends.outwards : bends.inwards) +=
+            std::atan2 (turn.norm (), here.dot (beyond));
         ++bends.edges;
       }
     });
@@ -133,7 +115,8 @@ private:
   Bends bendsAround (Index p) const
   {
     Bends sum = bends_at[p];
-    visitNeighbors (p, [&] (Index q) { sum.add (bends_at[q]); });
+    for (const Index q : rings.neighbors.row (p))
+      sum.add (bends_at[q]);
     return sum;
   }
 
@@ -150,25 +133,25 @@ private:
     visit ([&] (Index p) {
       if (bends_both_ways[p] == 0)
         return;
-      std::size_t neighbors = 0, beside = 0;
-      visitNeighbors (p, [&] (Index q) {
-        ++neighbors;
+      std::size_t beside = 0;
+      for (const Index q : rings.neighbors.row (p))
         beside += bends_both_ways[q];
-      });
-      is_noisy[p] = 2 * beside >= neighbors ? 1 : 0;
+      is_noisy[p] = 2 * beside >= rings.neighbors.row (p).size () ? 1 : 0;
     });
     return is_noisy;
   }
 
-  // The largest value of each vertex and those around it.
+  // Gives each vertex the largest value of those within some rings around it.
   template <typename Value>
-  std::vector<Value> widened (const std::vector<Value>& values) const
+  void widen (std::vector<Value>& values) const
   {
-    std::vector<Value> wider = values;
-    visit ([&] (Index p) {
-      visitNeighbors (p, [&] (Index q) { wider[p] = std::max (wider[p], values[q]); });
-    });
-    return wider;
+    for (int ring = 0; ring < limits.rings; ++ring) {
+      const std::vector<Value> narrow = values;
+      visit ([&] (Index p) {
+        for (const Index q : rings.neighbors.row (p))
+          values[p] = std::max (values[p], narrow[q]);
+      });
+    }
   }
 
   // Largest displacement of each vertex: by the longest mean length of edges around it.
@@ -176,15 +159,11 @@ private:
   {
     std::vector<double> reach (original.size (), 0.0);
     visit ([&] (Index p) {
-      std::size_t neighbors = 0;
-      visitNeighbors (p, [&] (Index q) {
+      for (const Index q : rings.neighbors.row (p))
         reach[p] += limits.farthest * (original[q] - original[p]).norm ();
-        ++neighbors;
-      });
-      reach[p] /= static_cast<double> (neighbors);
+      reach[p] /= static_cast<double> (rings.neighbors.row (p).size ());
     });
-    for (int ring = 0; ring < limits.rings; ++ring)
-      reach = widened (reach);
+    widen (reach);
     return reach;
   }
 
@@ -192,10 +171,10 @@ private:
   // get between these, and moves with them instead.
   Eigen::Vector3d targetOf (const std::vector<Eigen::Vector3d>& positions, Index p) const
   {
-    const Eigen::Vector3d mean = rings.meanAround (mesh, positions, p);
+    const Eigen::Vector3d mean = rings.meanAround (positions, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
       return mean;
-    return original[p] + mean - rings.meanAround (mesh, original, p);
+    return original[p] + mean - rings.meanAround (original, p);
   }
 };
 

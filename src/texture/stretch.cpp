@@ -64,12 +64,11 @@ stretchOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vect
 }
 
 std::vector<Index>
-flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2f>& uv)
+flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
 {
   std::vector<Index> flipped;
-  const auto at = [&uv] (Index corner) { return Eigen::Vector2d (uv[corner].cast<double> ()); };
   for (Index t = 0; t < triangles.size (); ++t)
-    if (!isAntiClockwise (at (triangles[t][0]), at (triangles[t][1]), at (triangles[t][2])))
+    if (const auto& [a, b, c] = triangles[t]; !isAntiClockwise (uv[a], uv[b], uv[c]))
       flipped.push_back (t);
   return flipped;
 }

@@ -5,9 +5,7 @@
 
 #include "core/types.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace pcl::floater {
@@ -47,6 +45,6 @@ stretchOf (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vect
 /// The triangles that are not anti-clockwise in the plane, ascending. Exact.
 /// \param triangles corners as indices of uv
 std::vector<Index>
-flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2f>& uv);
+flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
 
 } // namespace pcl::floater

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 
 namespace pcl::floater {
@@ -29,23 +28,6 @@ checkMesh (const std::vector<Eigen::Vector3d>& positions, const std::vector<Tria
                                                 "coordinates need one for each vertex"};
     }
   return {};
-}
-
-// Scaled by a power of two to about 1, if there are triangles: squares and cubes of lengths are finite
-// then. Points without a triangle stay as they are.
-std::vector<Eigen::Vector3d>
-scaled (const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles,
-        double& unit)
-{
-  double largest = 0.0;
-  for (const Triangle& t : triangles)
-    for (const Index p : t)
-      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
-  unit = largest > 0.0 ? std::ldexp (1.0, std::ilogb (largest)) : 1.0;
-  std::vector<Eigen::Vector3d> result = positions;
-  for (Eigen::Vector3d& position : result)
-    position /= unit;
-  return result;
 }
 
 // Coordinates by point, then by chart, so that the coordinates of a point are adjacent.
@@ -114,10 +96,19 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
             "the triangles are no oriented manifold: an edge has more than two triangles or two of "
             "opposite orientation, or a point has several fans; repair the mesh first"};
 
+  // Scaled by a power of two to about 1, if there are triangles: squares and cubes of lengths are
+  // finite then. Points without a triangle stay as they are.
+  double largest = 0.0;
+  for (const Triangle& t : triangles)
+    for (const Index p : t)
+      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
+  const double unit = largest > 0.0 ? std::ldexp (1.0, std::ilogb (largest)) : 1.0;
+  std::vector<Eigen::Vector3d> places = positions;
+  for (Eigen::Vector3d& place : places)
+    place /= unit;
+
   const TextureLimits limits;
   // Charts (discs) and their layouts, on the surface without its noise.
-  double unit = 1.0;
-  const std::vector<Eigen::Vector3d> places = scaled (positions, triangles, unit);
   std::vector<ChartLayout> charts = layOutCharts (
       mesh, places, smoothNoise (mesh, places, limits.smoothing, run), options, limits, run);
 
@@ -125,6 +116,7 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
   // sizes that differ by more than its digits, are taken apart.
   constexpr int ATTEMPTS = 4;
   std::vector<Index> flipped;
+  std::vector<Eigen::Vector2d> uv;
   for (int round = 0; round == 0 || (round < ATTEMPTS && !flipped.empty ()); ++round) {
     std::vector<ChartLayout> kept;
     for (ChartLayout& chart : charts)
@@ -139,15 +131,15 @@ makeTextureCoordinates (const std::vector<Eigen::Vector3d>& positions,
     charts = std::move (kept);
     result.gutter = packCharts (charts, limits.atlas, run);
     takeCoordinates (charts, positions.size (), triangles.size (), result);
-    flipped = flippedTriangles (result.corners, result.coordinates);
+    uv.clear ();
+    for (const Eigen::Vector2f& rounded : result.coordinates)
+      uv.emplace_back (rounded.cast<double> ());
+    flipped = flippedTriangles (result.corners, uv);
   }
   result.chart_count = charts.size ();
   result.flipped = flipped.size ();
   findSeams (mesh, places, result);
   result.seam_length *= unit;
-  std::vector<Eigen::Vector2d> uv;
-  for (const Eigen::Vector2f& rounded : result.coordinates)
-    uv.emplace_back (rounded.cast<double> ());
   const StretchSums sums = stretchOf (triangles, places, result.corners, uv);
   result.stretch = sums.mean ();
   result.largest_stretch = sums.largest ();

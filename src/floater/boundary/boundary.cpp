@@ -72,24 +72,6 @@ openingAnglePoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   return points;
 }
 
-// Sets the largest step of the loop, and the point where it begins.
-void
-measureSteps (const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-              Boundary& boundary)
-{
-  boundary.largest_step = 0.0;
-  boundary.longest_from = NONE;
-  for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
-    const Index p = boundary.loop[i];
-    const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
-    const double step = (positions[p] - positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
-    if (step > boundary.largest_step) {
-      boundary.largest_step = step;
-      boundary.longest_from = p;
-    }
-  }
-}
-
 } // namespace
 
 Boundary
@@ -126,7 +108,16 @@ checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_
             ": the surface seems to be closed, or it is not one disc; cut it open, or give the "
             "loop"};
   }
-  measureSteps (points.workingPositions (), spacing, boundary);
+  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  for (std::size_t i = 0; i < boundary.loop.size (); ++i) {
+    const Index p = boundary.loop[i];
+    const Index q = boundary.loop[(i + 1) % boundary.loop.size ()];
+    const double step = (positions[p] - positions[q]).norm () / (0.5 * (spacing[p] + spacing[q]));
+    if (step > boundary.largest_step) {
+      boundary.largest_step = step;
+      boundary.longest_from = p;
+    }
+  }
 }
 
 } // namespace pcl::floater

@@ -7,7 +7,6 @@
 #include "core/run_context.h"
 #include "core/types.h"
 #include "local/local_geometry.h"
-#include "local/stars.h"
 #include "points/points.h"
 
 #include <pcl/surface/floater/options.h>

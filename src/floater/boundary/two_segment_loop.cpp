@@ -194,9 +194,7 @@ orderSegment (const Positions& positions, const std::vector<Index>& segment, con
       shortest = std::move (order);
     }
   }
-  for (Index& p : shortest)
-    p = segment[p];
-  return shortest;
+  return valuesAt (segment, shortest);
 }
 
 } // namespace
@@ -246,8 +244,7 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
         }
       }
     }
-    for (Index& p : cluster)
-      p = boundary_points[p];
+    cluster = valuesAt (boundary_points, cluster);
     std::sort (cluster.begin (), cluster.end ());
     clusters.push_back (std::move (cluster));
   }
@@ -294,9 +291,7 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
   if (loop.empty () || way_back.empty ())
     return {};
   loop.insert (loop.end (), way_back.begin () + 1, way_back.end () - 1);
-  for (Index& p : loop)
-    p = cluster[p];
-  return loop;
+  return valuesAt (cluster, loop);
 }
 
 } // namespace pcl::floater

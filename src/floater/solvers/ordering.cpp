@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/solver_parts.h"
 
+#include <Eigen/CholmodSupport>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/cuthill_mckee_ordering.hpp>
-#include <cholmod.h>
 
 #include <array>
 #include <cstdlib>
+#include <iterator>
 #include <mutex>
 #include <new>
 
@@ -32,19 +33,10 @@ callMetis (cholmod_sparse& pattern, int* order, cholmod_common& common)
 // Approximate minimum degree (Amestoy, Davis and Duff 1996), or nested dissection by METIS (Karypis
 // and Kumar 1998).
 Order
-orderByCholmod (SystemMatrix& symmetric, Ordering ordering)
+orderByCholmod (const SystemMatrix& symmetric, Ordering ordering)
 {
   Order order (symmetric.rows ());
-  cholmod_sparse pattern{};
-  pattern.nrow = pattern.ncol = static_cast<std::size_t> (symmetric.rows ());
-  pattern.nzmax = static_cast<std::size_t> (symmetric.nonZeros ());
-  pattern.p = symmetric.outerIndexPtr ();
-  pattern.i = symmetric.innerIndexPtr ();
-  pattern.stype = 1; // symmetric, read from its upper triangle
-  pattern.itype = CHOLMOD_INT;
-  pattern.xtype = CHOLMOD_PATTERN;
-  pattern.dtype = CHOLMOD_DOUBLE;
-  pattern.packed = 1;
+  cholmod_sparse pattern = Eigen::viewAsCholmod (symmetric.selfadjointView<Eigen::Lower> ());
   cholmod_common common{};
   cholmod_start (&common);
   common.print = 0;
@@ -68,13 +60,12 @@ reverseCuthillMckee (const SystemMatrix& symmetric)
     for (SystemMatrix::InnerIterator entry (symmetric, row); entry && entry.col () < row; ++entry)
       boost::add_edge (static_cast<std::size_t> (row), static_cast<std::size_t> (entry.col ()),
                        graph);
-  std::vector<std::size_t> order (boost::num_vertices (graph));
-  boost::cuthill_mckee_ordering (graph, order.rbegin (), boost::get (boost::vertex_color, graph),
+  Order order (symmetric.rows ());
+  int* const end = order.indices ().data () + order.size ();
+  boost::cuthill_mckee_ordering (graph, std::make_reverse_iterator (end),
+                                 boost::get (boost::vertex_color, graph),
                                  boost::make_degree_map (graph));
-  Order unknowns (symmetric.rows ());
-  std::transform (order.begin (), order.end (), unknowns.indices ().begin (),
-                  [] (std::size_t unknown) { return static_cast<int> (unknown); });
-  return unknowns;
+  return order;
 }
 
 } // namespace
@@ -82,7 +73,7 @@ reverseCuthillMckee (const SystemMatrix& symmetric)
 Order
 orderUnknowns (const SystemMatrix& matrix, Ordering ordering)
 {
-  SystemMatrix symmetric = matrix + SystemMatrix (matrix.transpose ());
+  const SystemMatrix symmetric = matrix + SystemMatrix (matrix.transpose ());
   return ordering == Ordering::REVERSE_CUTHILL_MCKEE ? reverseCuthillMckee (symmetric)
                                                      : orderByCholmod (symmetric, ordering);
 }

@@ -11,7 +11,6 @@
 #include <pcl/surface/floater/options.h>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace pcl::floater {
