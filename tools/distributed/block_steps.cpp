@@ -70,14 +70,11 @@ toPlaces (const BlockSearch& block, const std::vector<float>& own)
 CsrLists
 ofOwn (const BlockSearch& block, const CsrLists& lists)
 {
-  CsrLists own;
-  own.offsets.push_back (0);
-  for (Index p = block.ownFirst (); p < block.ownLast (); ++p) {
-    for (const Index place : lists.row (p))
-      own.ids.push_back (block.points ()[place]);
-    own.offsets.push_back (static_cast<Index> (own.ids.size ()));
-  }
-  return own;
+  return makeCsrLists (block.ownLast () - block.ownFirst (), [&] (const auto& emit) {
+    for (Index p = block.ownFirst (); p < block.ownLast (); ++p)
+      for (const Index place : lists.row (p))
+        emit (p - block.ownFirst (), block.points ()[place]);
+  });
 }
 
 /// The values of the own points of a block.

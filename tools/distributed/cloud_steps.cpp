@@ -193,7 +193,7 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
 
     const std::filesystem::path path = folder / tileName (tile);
     OutputFiles files;
-    losses = writeMesh (path, part, local, MeshFormat::PLY, files);
+    losses = writeMesh (path, part, local, writePly, files);
     publishAll (files);
     const FileBytes written (path); // as it is read back
     std::array<char, 9> sum{};
@@ -308,7 +308,7 @@ writeStep (const Job& job, const Store& store, const Plan& plan)
     stageFile (line.report, store.open (REPORT).text (), files);
   const std::vector<std::string> losses =
       job.writes_tiles ? writeTiles (line.output, cloud, triangles, firsts, store, plan)
-                       : writeMesh (line.output, cloud, triangles, *line.meshFormat (), files);
+                       : writeMesh (line.output, cloud, triangles, line.meshFormat (), files);
   for (const std::string& loss : losses)
     std::fprintf (stderr, "warning: %s\n", printable (loss).c_str ());
   publishAll (files);

@@ -129,9 +129,9 @@ takeFiles (const std::vector<std::string>& files, Job& job)
   if (job.writes_tiles) {
     if (!job.line.output.has_filename ()) // "town/"
       job.line.output = job.line.output.parent_path ();
-    job.line.output_format = MeshFormat::PLY;
+    job.line.output_format = writePly;
   }
-  if (isStandardStream (job.line.output) || !job.line.meshFormat ())
+  if (isStandardStream (job.line.output) || job.line.meshFormat () == nullptr)
     throw WriteError ("cannot write '" + job.line.output.string () +
                       "': it has no extension that tells the format of a mesh; use " +
                       MESH_EXTENSIONS + ", or --tiles and a folder");

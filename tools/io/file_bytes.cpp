@@ -19,12 +19,6 @@ namespace {
 std::map<char*, std::size_t> mapped_files; // sizes by address
 std::mutex mapped_files_mutex;
 
-[[noreturn]] void
-failOnErrno ()
-{
-  throw ReadError (std::strerror (errno));
-}
-
 } // namespace
 
 struct FileBytes::Holder
@@ -33,7 +27,7 @@ struct FileBytes::Holder
   explicit Holder (int opened) : descriptor (opened)
   {
     if (descriptor < 0 || ::fstat (descriptor, &status) != 0)
-      failOnErrno ();
+      throw ReadError (std::strerror (errno));
     const auto size = static_cast<std::size_t> (status.st_size);
     void* at = MAP_FAILED;
     if (S_ISREG (status.st_mode) && size > 0)
@@ -72,7 +66,7 @@ struct FileBytes::Holder
         own.resize (used + std::max (STEP, used));
       const ssize_t got = ::read (descriptor, own.data () + used, own.size () - used);
       if (got < 0 && errno != EINTR)
-        failOnErrno ();
+        throw ReadError (std::strerror (errno));
       if (got == 0)
         break;
       used += static_cast<std::size_t> (std::max<ssize_t> (got, 0));

@@ -36,8 +36,11 @@ unitNormal (const FieldTriple& fields, std::size_t row)
 
 } // namespace
 
+/// Positions in single precision, colours, normals of length 1 (0 0 1 where there is none), and
+/// triangles.
+/// \throws WriteError also if it would have more than 4 GB
 void
-writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& /*extras*/)
 {
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);

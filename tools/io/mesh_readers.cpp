@@ -5,7 +5,7 @@
 #include "text_scanner.h"
 
 #include <limits>
-#include <numeric>
+#include <set>
 
 namespace pcl::floater {
 namespace {
@@ -114,35 +114,23 @@ matchNormals (const std::vector<double>& normals, const ObjFaces& faces, std::si
   return matched;
 }
 
-constexpr std::size_t STL_HEADER_BYTES = 80;
 constexpr std::size_t FACET_BYTES = 50; ///< a normal, three corners, two bytes
 
 /// The distinct corners of facets, in the order in which they come first. Corners that have the
-/// same coordinates are one point, also those of a NaN. By sorting, for whose time it does not
-/// matter what a file holds.
+/// same coordinates are one point, also those of a NaN. By a set that is a tree, for whose time it
+/// does not matter what a file holds.
 template <typename Number>
 Cloud
 cloudOf (std::vector<std::array<Number, 3>> corners)
 {
-  using Corner = std::array<Number, 3>;
-  for (Corner& corner : corners)
+  std::set<std::string_view> known; // bytes of the points
+  std::vector<std::array<Number, 3>> points;
+  for (std::array<Number, 3>& corner : corners) {
     for (Number& coordinate : corner)
       coordinate += Number{0}; // -0 is 0
-  std::vector<std::size_t> order (corners.size ());
-  std::iota (order.begin (), order.end (), std::size_t{0});
-  const auto bytesOf = [&corners] (std::size_t corner) {
-    return std::string_view (reinterpret_cast<const char*> (&corners[corner]), sizeof (Corner));
-  };
-  std::sort (order.begin (), order.end (), [&bytesOf] (std::size_t a, std::size_t b) {
-    return std::pair (bytesOf (a), a) < std::pair (bytesOf (b), b);
-  });
-  std::vector<bool> repeats (corners.size (), false); // one before
-  for (std::size_t i = 1; i < order.size (); ++i)
-    repeats[order[i]] = bytesOf (order[i]) == bytesOf (order[i - 1]);
-  std::vector<Corner> points;
-  for (std::size_t corner = 0; corner < corners.size (); ++corner)
-    if (!repeats[corner])
-      points.push_back (corners[corner]);
+    if (known.emplace (reinterpret_cast<const char*> (corner.data ()), sizeof corner).second)
+      points.push_back (corner);
+  }
   const std::size_t size = points.size ();
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, sizeof (Number) == 4 ? ScalarType::FLOAT32 : ScalarType::FLOAT64,
@@ -153,11 +141,8 @@ cloudOf (std::vector<std::array<Number, 3>> corners)
 }
 
 Cloud
-parseBinary (std::string_view bytes)
+parseBinary (std::size_t facets, std::string_view bytes)
 {
-  const std::size_t facets =
-      readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
-  bytes.remove_prefix (STL_HEADER_BYTES + sizeof (std::uint32_t));
   requireRoom ("facets", facets, FACET_BYTES, bytes.size ());
   std::vector<std::array<float, 3>> corners;
   for (std::size_t f = 0; f < facets; ++f)
@@ -253,20 +238,19 @@ Cloud
 parseStl (const FileBytes& file, const ReadOptions& /*options*/)
 {
   const std::string_view bytes = file.view ();
-  const bool is_long = bytes.size () >= STL_HEADER_BYTES + sizeof (std::uint32_t);
-  // Some programs begin binary files with "solid", too: then only the length tells.
-  const bool fits_binary =
-      is_long &&
-      (bytes.size () - STL_HEADER_BYTES - sizeof (std::uint32_t)) / FACET_BYTES ==
-          readNumber<std::uint32_t> (bytes.data () + STL_HEADER_BYTES, ByteOrder::LITTLE);
+  constexpr std::size_t COUNT_AT = 80, FACETS_AT = COUNT_AT + sizeof (std::uint32_t);
+  std::optional<std::size_t> facets; // of a binary file
+  if (bytes.size () >= FACETS_AT)
+    facets = readNumber<std::uint32_t> (bytes.data () + COUNT_AT, ByteOrder::LITTLE);
   TextScanner scanner (bytes);
-  const bool is_solid = scanner.nextFilledLine () && isWord (scanner.word (), "solid");
-  if (is_solid && !fits_binary)
+  // Some programs begin binary files with "solid", too: then only the length tells.
+  if (scanner.nextFilledLine () && isWord (scanner.word (), "solid") &&
+      !(facets && (bytes.size () - FACETS_AT) / FACET_BYTES == *facets))
     return parseText (bytes);
-  if (!is_long)
+  if (!facets)
     throw ReadError (
         "it is too short for a binary STL file, and a text does not begin with 'solid'");
-  return parseBinary (bytes);
+  return parseBinary (*facets, bytes.substr (FACETS_AT));
 }
 
 } // namespace pcl::floater

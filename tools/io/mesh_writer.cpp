@@ -43,16 +43,86 @@ forCoordinates (const Cloud& cloud, std::size_t point, const Write& write)
       write (coordinate);
 }
 
+/// VTK decodes %xx in the names of arrays.
+std::string
+encodeName (const std::string& name)
+{
+  std::string encoded;
+  for (const char c : name) {
+    if (c > ' ' && c <= '~' && c != '%' && c != '"')
+      encoded += c;
+    else {
+      const auto code = static_cast<unsigned char> (c);
+      encoded += {'%', "0123456789ABCDEF"[code >> 4U], "0123456789ABCDEF"[code & 15U]};
+    }
+  }
+  return encoded;
+}
+
+template <std::size_t N>
+void
+writeValues (AtomicFile& file, const std::array<const Field*, N>& fields, const Cloud& cloud)
+{
+  visitType (fields[0]->type, [&] (auto tag) {
+    for (std::size_t i = 0; i < cloud.size (); ++i)
+      for (const Field* field : fields)
+        for (std::size_t c = 0; c < field->count; ++c)
+          file.writeNumber (field->value<decltype (tag)> (cloud.row (i), c), ByteOrder::BIG);
+  });
+  file.print ("\n");
+}
+
+bool
+isLong (ScalarType type)
+{
+  return type == ScalarType::INT64 || type == ScalarType::UINT64;
+}
+
+/// The cloud with as many rows for each point as it has texture coordinates, and these as the
+/// fields s and t, of 32 bits: the first of a point in its own row, the others after all points. A
+/// point without one has -1. All fields are copied. Triangles are renumbered.
+Cloud
+doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles)
+{
+  constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max ();
+  const std::size_t points = cloud.size ();
+  std::vector<std::size_t> rows (points);
+  for (std::size_t p = 0; p < points; ++p)
+    rows[p] = cloud.row (p);
+  std::vector<Eigen::Vector2f> places (points, Eigen::Vector2f (-1.0F, -1.0F));
+  std::vector<std::uint32_t> number (texture.coordinates.size (), NONE); // of each coordinate
+  for (std::size_t c = 0; c < number.size (); ++c) {
+    const std::uint32_t point = texture.points[c];
+    if (c == 0 || texture.points[c - 1] != point)
+      number[c] = point;
+    else {
+      number[c] = static_cast<std::uint32_t> (rows.size ());
+      rows.push_back (rows[point]);
+      places.emplace_back ();
+    }
+    places[number[c]] = texture.coordinates[c];
+  }
+  for (std::size_t i = 0; i < triangles.size (); ++i)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      triangles[i][corner] = number[texture.corners[i][corner]];
+
+  Cloud doubled = copyRows (cloud, rows);
+  replaceColumns ({"s", "t"}, ScalarType::FLOAT32, std::move (places), doubled.fields);
+  return doubled;
+}
+
+} // namespace
+
 /// Wavefront OBJ: points with colours, normals (0 0 0 where they are not finite), and faces.
 void
-writeObj (AtomicFile& file, const std::filesystem::path& path, const Cloud& cloud,
-          const Triangles& triangles, const TextureCoordinates* texture)
+writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& extras)
 {
+  const TextureCoordinates* const texture = extras.texture;
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
   file.print ("# ", COMMENT, "\n", shiftLine ("# shift ", cloud));
   if (texture != nullptr)
-    file.print ("mtllib ", materialsBeside (path).filename ().string (), "\n");
+    file.print ("mtllib ", materialsBeside (extras.path).filename ().string (), "\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
     file.print ("v");
     forCoordinates (cloud, i, [&file] (auto number) { file.print (" ", number); });
@@ -89,7 +159,7 @@ writeObj (AtomicFile& file, const std::filesystem::path& path, const Cloud& clou
 /// Geomview OFF, text: points with colours from 0 to 255, normals (0 0 0 where they are not
 /// finite), and faces. Its first word is OFF, COFF, NOFF or CNOFF.
 void
-writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& /*extras*/)
 {
   const FieldTriple colors = colorFields (cloud);
   const FieldTriple normals = normalFields (cloud);
@@ -112,7 +182,7 @@ writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
 
 /// Binary STL: triangles in single precision, nothing else.
 void
-writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
+writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& /*extras*/)
 {
   constexpr std::size_t HEADER = 80; // bytes; must not begin with "solid"
   std::string header = COMMENT;
@@ -127,44 +197,15 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles)
   }
 }
 
-// Does not use VTK, because loading its libraries takes longer than reconstructing most clouds. The
-// tests read the files back with VTK and PCL.
-
-/// VTK decodes %xx in the names of arrays.
-std::string
-encodeName (const std::string& name)
-{
-  std::string encoded;
-  for (const char c : name) {
-    if (c > ' ' && c <= '~' && c != '%' && c != '"')
-      encoded += c;
-    else {
-      const auto code = static_cast<unsigned char> (c);
-      encoded += {'%', "0123456789ABCDEF"[code >> 4U], "0123456789ABCDEF"[code & 15U]};
-    }
-  }
-  return encoded;
-}
-
-template <std::size_t N>
-void
-writeValues (AtomicFile& file, const std::array<const Field*, N>& fields, const Cloud& cloud)
-{
-  visitType (fields[0]->type, [&] (auto tag) {
-    for (std::size_t i = 0; i < cloud.size (); ++i)
-      for (const Field* field : fields)
-        for (std::size_t c = 0; c < field->count; ++c)
-          file.writeNumber (field->value<decltype (tag)> (cloud.row (i), c), ByteOrder::BIG);
-  });
-  file.print ("\n");
-}
-
 /// Legacy VTK 3.0, binary, polydata. Colours are unsigned char scalars named "RGB", which viewers
 /// show unchanged and PCL reads by that name; normals are point normals; other fields are arrays.
-/// \param with_texture the float fields s and t are texture coordinates
+/// With a texture, its coordinates are the float fields s and t.
+/// Does not use VTK, because loading its libraries takes longer than reconstructing most clouds. The
+/// tests read the files back with VTK and PCL.
 void
-writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool with_texture)
+writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& extras)
 {
+  const bool with_texture = extras.texture != nullptr;
   const std::string shift = cloud.shiftText ();
   file.print ("# vtk DataFile Version 3.0\n", COMMENT, shift.empty () ? "" : ", shift ", shift,
               "\nBINARY\nDATASET POLYDATA\nPOINTS ", cloud.size (),
@@ -210,18 +251,10 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, bool
   }
 }
 
-bool
-isLong (ScalarType type)
-{
-  return type == ScalarType::INT64 || type == ScalarType::UINT64;
-}
-
 /// PLY, binary little endian. A field of several values becomes several properties: name_0, name_1,
 /// ...
-/// \param losses of the format are added
 void
-writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
-          std::vector<std::string>& losses)
+writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& extras)
 {
   file.print ("ply\nformat binary_little_endian 1.0\ncomment ", COMMENT, "\n",
               shiftLine ("comment shift ", cloud), "element vertex ", cloud.size (), "\n");
@@ -232,8 +265,8 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
       file.print ("property ", isLong (field.type) ? "double" : namesOf (field.type).ply, " ",
                   field.name, field.count > 1 ? "_" + std::to_string (c) : "", "\n");
     if (isLong (field.type))
-      losses.push_back ("PLY has no 64-bit integers: the field '" + field.name +
-                        "' was written as double");
+      extras.losses.push_back ("PLY has no 64-bit integers: the field '" + field.name +
+                               "' was written as double");
   }
   file.print ("element face ", triangles.size (),
               "\nproperty list uchar int vertex_indices\nend_header\n");
@@ -258,41 +291,6 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
   }
 }
 
-/// The cloud with as many rows for each point as it has texture coordinates, and these as the
-/// fields s and t, of 32 bits: the first of a point in its own row, the others after all points. A
-/// point without one has -1. All fields are copied. Triangles are renumbered.
-Cloud
-doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles)
-{
-  constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max ();
-  const std::size_t points = cloud.size ();
-  std::vector<std::size_t> rows (points);
-  for (std::size_t p = 0; p < points; ++p)
-    rows[p] = cloud.row (p);
-  std::vector<Eigen::Vector2f> places (points, Eigen::Vector2f (-1.0F, -1.0F));
-  std::vector<std::uint32_t> number (texture.coordinates.size (), NONE); // of each coordinate
-  for (std::size_t c = 0; c < number.size (); ++c) {
-    const std::uint32_t point = texture.points[c];
-    if (c == 0 || texture.points[c - 1] != point)
-      number[c] = point;
-    else {
-      number[c] = static_cast<std::uint32_t> (rows.size ());
-      rows.push_back (rows[point]);
-      places.emplace_back ();
-    }
-    places[number[c]] = texture.coordinates[c];
-  }
-  for (std::size_t i = 0; i < triangles.size (); ++i)
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      triangles[i][corner] = number[texture.corners[i][corner]];
-
-  Cloud doubled = copyRows (cloud, rows);
-  replaceColumns ({"s", "t"}, ScalarType::FLOAT32, std::move (places), doubled.fields);
-  return doubled;
-}
-
-} // namespace
-
 std::size_t
 countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
 {
@@ -311,9 +309,7 @@ std::vector<std::string>
 writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangles& triangles,
            MeshFormat format, OutputFiles& files, const TextureCoordinates* texture)
 {
-  const char* const single = format == MeshFormat::STL   ? "STL"
-                             : format == MeshFormat::GLB ? "glTF"
-                                                         : nullptr;
+  const char* const single = format == writeStl ? "STL" : format == writeGlb ? "glTF" : nullptr;
   if (single != nullptr)
     if (const std::size_t lost = countMergedInSinglePrecision (cloud, triangles))
       throw WriteError ("cannot write '" + path.string () + "': " + single +
@@ -322,34 +318,19 @@ writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangle
                         " triangles have two equal corners; subtract an origin with --shift, or "
                         "write .vtk, .ply, .obj or .off");
   AtomicFile& file = files.emplace_back (path);
-  std::vector<std::string> losses;
-  const auto write = [&] (const Cloud& vertices, const Triangles& faces) {
-    switch (format) {
-    case MeshFormat::VTK:
-      return writeVtk (file, vertices, faces, texture != nullptr);
-    case MeshFormat::PLY:
-      return writePly (file, vertices, faces, losses);
-    case MeshFormat::OBJ:
-      return writeObj (file, path, vertices, faces, texture);
-    case MeshFormat::OFF:
-      return writeOff (file, vertices, faces);
-    case MeshFormat::STL:
-      return writeStl (file, vertices, faces);
-    case MeshFormat::GLB:
-      return writeGlb (file, vertices, faces);
-    }
-  };
-  if (texture != nullptr && format != MeshFormat::OBJ) {
+  MeshExtras extras{path, texture};
+  if (texture != nullptr && format != writeObj) {
     Triangles renumbered = triangles;
-    write (doubleSeamPoints (cloud, *texture, renumbered), renumbered);
+    format (file, doubleSeamPoints (cloud, *texture, renumbered), renumbered, extras);
   }
   else
-    write (cloud, triangles);
+    format (file, cloud, triangles, extras);
   if (single != nullptr && !cloud.single_precision)
-    losses.push_back (std::string (single) + " holds single precision only: the coordinates were "
-                                             "rounded; write .vtk or .ply to keep them");
+    extras.losses.push_back (std::string (single) +
+                             " holds single precision only: the coordinates were "
+                             "rounded; write .vtk or .ply to keep them");
   file.close ();
-  return losses;
+  return std::move (extras.losses);
 }
 
 } // namespace pcl::floater

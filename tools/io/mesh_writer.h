@@ -8,34 +8,39 @@
 #include "mesh_texture.h"
 
 #include <array>
-#include <optional>
 #include <utility>
 
 namespace pcl::floater {
-enum class MeshFormat
+/// What some formats have beside the points and the triangles, and what they lose.
+struct MeshExtras
 {
-  VTK,
-  PLY,
-  OBJ,
-  STL,
-  OFF,
-  GLB
+  std::filesystem::path path;        ///< of the file
+  const TextureCoordinates* texture; ///< nullptr: none are written
+  std::vector<std::string> losses{}; ///< of the format, one sentence each
 };
 
+/// Writes a mesh in one format. Of STL and GLB, coordinates are in single precision.
+/// \throws WriteError
+using MeshWriter = void (AtomicFile& file, const Cloud& cloud, const Triangles& triangles,
+                         MeshExtras& extras);
+
+MeshWriter writeVtk, writePly, writeObj, writeStl, writeOff, writeGlb;
+
+using MeshFormat = MeshWriter*;
+
 /// Their names, which are their extensions as well.
-constexpr std::array<std::pair<const char*, std::optional<MeshFormat>>, 7> MESH_FORMATS{
-    {{"auto", std::nullopt},
-     {"vtk", MeshFormat::VTK},
-     {"ply", MeshFormat::PLY},
-     {"obj", MeshFormat::OBJ},
-     {"stl", MeshFormat::STL},
-     {"off", MeshFormat::OFF},
-     {"glb", MeshFormat::GLB}}};
+constexpr std::array<std::pair<const char*, MeshFormat>, 7> MESH_FORMATS{{{"auto", nullptr},
+                                                                          {"vtk", writeVtk},
+                                                                          {"ply", writePly},
+                                                                          {"obj", writeObj},
+                                                                          {"stl", writeStl},
+                                                                          {"off", writeOff},
+                                                                          {"glb", writeGlb}}};
 
 constexpr const char* MESH_EXTENSIONS = ".vtk, .ply, .obj, .stl, .off or .glb";
 
-/// The format that the extension of a file tells, in upper or lower case.
-inline std::optional<MeshFormat>
+/// The format that the extension of a file tells, in upper or lower case; nullptr if it is unknown.
+inline MeshFormat
 meshFormatOf (const std::filesystem::path& path)
 {
   return formatOf (path, MESH_FORMATS);
@@ -64,11 +69,5 @@ writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
 /// Number of triangles of which 32-bit floats make two corners one: readers may merge those.
 std::size_t
 countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles);
-
-/// Binary glTF 2.0: positions in single precision, colours, normals of length 1 (0 0 1 where there
-/// is none), and triangles.
-/// \throws WriteError also if it would have more than 4 GB
-void
-writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles);
 
 } // namespace pcl::floater

@@ -101,16 +101,18 @@ public:
     return false;
   }
 
+  /// Goes to the next word of the line, if there is one.
   bool hasWord ()
   {
-    skipBlanks ();
+    while (at_ < end_ && isBlank (text_[at_]))
+      ++at_;
     return at_ < end_;
   }
 
   /// Reads the next word of the line; empty at its end.
   std::string_view word ()
   {
-    skipBlanks ();
+    hasWord ();
     const std::size_t first = at_;
     while (at_ < end_ && !isBlank (text_[at_]))
       ++at_;
@@ -158,12 +160,6 @@ public:
   }
 
 private:
-  void skipBlanks ()
-  {
-    while (at_ < end_ && isBlank (text_[at_]))
-      ++at_;
-  }
-
   std::string_view text_;
   char newline_;
   std::size_t at_ = 0;   // next character

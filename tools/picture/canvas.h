@@ -24,23 +24,21 @@ struct Spot
   double weight;   ///< 1 over the distance from the viewer in perspective, else 1
 };
 
-/// The image with one pixel for each block of so many by so many, of their mean colour.
+/// The image with one pixel for each block of two by two, of their mean colour.
 inline ColourImage
-shrunk (const ColourImage& image, std::size_t factor)
+halved (const ColourImage& image)
 {
-  ColourImage small{image.width / factor, image.height / factor, {}};
-  for (std::size_t y = 0; y < small.height; ++y)
-    for (std::size_t x = 0; x < small.width; ++x) {
-      std::array<std::size_t, 3> sum{};
-      for (std::size_t i = 0; i < factor * factor; ++i)
-        for (std::size_t channel = 0; channel < 3; ++channel)
-          sum[channel] += image.pixels[(y * factor + i / factor) * image.width + x * factor +
-                                       i % factor][channel];
-      ColourImage::Pixel& mean = small.pixels.emplace_back ();
-      for (std::size_t channel = 0; channel < 3; ++channel)
-        mean[channel] = static_cast<std::uint8_t> (sum[channel] / (factor * factor));
+  ColourImage half{image.width / 2, image.height / 2, {}};
+  for (std::size_t y = 0; y < half.height; ++y)
+    for (std::size_t x = 0; x < half.width; ++x) {
+      const auto* const above = &image.pixels[2 * (y * image.width + x)];
+      const auto* const below = above + image.width;
+      ColourImage::Pixel& mean = half.pixels.emplace_back ();
+      for (std::size_t c = 0; c < mean.size (); ++c)
+        mean[c] =
+            static_cast<std::uint8_t> ((above[0][c] + above[1][c] + below[0][c] + below[1][c]) / 4);
     }
-  return small;
+  return half;
 }
 
 /// A white square on which triangles and lines hide each other.
@@ -70,10 +68,18 @@ public:
     visitPixels ({{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}}, side_,
                  [&] (std::size_t x, std::size_t y, const Eigen::Vector3d& shares) {
                    const std::size_t pixel = y * side_ + x;
-                   if (!hide (pixel, shares.dot (nearness)))
+                   const auto its = static_cast<float> (shares.dot (nearness));
+                   if (its < nearness_[pixel]) // it is hidden
                      return;
+                   nearness_[pixel] = its;
                    const Eigen::Vector3d weighted = shares.cwiseProduct (weights);
-                   paint (pixel, shade (Eigen::Vector3d (weighted / weighted.sum ())), opacity);
+                   const Colour wanted =
+                       255.0 * shade (Eigen::Vector3d (weighted / weighted.sum ()));
+                   for (std::size_t channel = 0; channel < 3; ++channel) {
+                     std::uint8_t& value = image_.pixels[pixel][channel];
+                     value = static_cast<std::uint8_t> (std::lround (
+                         value + opacity * (wanted[static_cast<Eigen::Index> (channel)] - value)));
+                   }
                  });
   }
 
@@ -102,24 +108,6 @@ public:
   const ColourImage& image () const { return image_; }
 
 private:
-  // Whether nothing in the pixel is nearer; then what is there is hidden.
-  bool hide (std::size_t pixel, double nearness)
-  {
-    if (static_cast<float> (nearness) < nearness_[pixel])
-      return false;
-    nearness_[pixel] = static_cast<float> (nearness);
-    return true;
-  }
-
-  void paint (std::size_t pixel, const Colour& colour, double opacity)
-  {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      std::uint8_t& value = image_.pixels[pixel][channel];
-      const double wanted = 255.0 * colour[static_cast<Eigen::Index> (channel)];
-      value = static_cast<std::uint8_t> (std::lround (value + opacity * (wanted - value)));
-    }
-  }
-
   std::size_t side_;
   std::vector<float> nearness_;
   ColourImage image_;
@@ -135,7 +123,7 @@ public:
   {
     constexpr double MOST = 1.5;
     for (; pixels > MOST && std::min (image_.width, image_.height) > 1; pixels /= 2.0)
-      image_ = shrunk (image_, 2);
+      image_ = halved (image_);
   }
 
   /// The colour at a place from 0 to 1, y upwards, averaged linearly between pixels.

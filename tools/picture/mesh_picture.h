@@ -195,7 +195,6 @@ aimFromViewpoint (const Eigen::Vector3d& viewpoint, const std::vector<Eigen::Vec
   return camera;
 }
 
-constexpr std::size_t SUPERSAMPLING = 2;        // pixels drawn per pixel, in each direction
 constexpr std::size_t MOST_DRAWN_EDGES = 15000; // triangles of a shaded mesh up to which edges show
 constexpr int BOUNDARY_WIDTH = 4, EDGE_WIDTH = 1; // pixels drawn
 constexpr double LIFT = 3.0;                      // pixels drawn
@@ -341,7 +340,7 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
   ColourImage image{has_two_panels ? 2 * height : height, height, {}};
   image.pixels.resize (image.width * image.height);
 
-  Canvas canvas (SUPERSAMPLING * height);
+  Canvas canvas (2 * height); // is halved
   std::optional<Camera> camera;
   if (options.viewpoint)
     camera = aimFromViewpoint (mesh.scale * (*options.viewpoint - mesh.centre), mesh.points);
@@ -350,13 +349,13 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
   drawTriangles (canvas, mesh, *camera, options.texture,
                  options.flat_shading ? Shading::FLAT : Shading::SMOOTH);
   const auto copyTo = [&] (std::size_t left) {
-    const ColourImage panel = shrunk (canvas.image (), SUPERSAMPLING);
+    const ColourImage panel = halved (canvas.image ());
     for (std::size_t row = 0; row < height; ++row)
       std::copy_n (&panel.pixels[row * height], height, &image.pixels[row * image.width + left]);
   };
   copyTo (0);
 
-  canvas = Canvas (SUPERSAMPLING * height);
+  canvas = Canvas (2 * height);
   if (options.texture) {
     for (std::size_t i = 0; i < mesh.points.size (); ++i)
       mesh.points[i] << mesh.coordinates[i], 0.0;

@@ -26,68 +26,51 @@ using namespace py::literals;
 
 namespace pcl::floater {
 namespace {
-/// Tells Python's caller how far a run is, and ends the run if the callable or a signal raised an
-/// exception. The run does not hold the lock of the interpreter (GIL) meanwhile.
-class Watch
+/// Does the work without the lock of the interpreter (GIL). Tells Python's caller how far it is, and
+/// ends it if the callable or a signal raised an exception.
+/// \param options Options, or TextureOptions
+/// \throws what was raised
+template <typename AnyOptions, typename Work>
+void
+watch (const py::object& progress, AnyOptions& options, const Work& work)
 {
-public:
-  explicit Watch (pybind11::object progress) : progress_ (std::move (progress))
-  {
-    // Signals are handled in the main thread only.
-    const auto threading = pybind11::module_::import ("threading");
-    handles_signals_ = threading.attr ("current_thread") ().is (threading.attr ("main_thread") ());
-  }
-
-  /// \param options Options, or TextureOptions
-  template <typename AnyOptions>
-  void attachTo (AnyOptions& options)
-  {
-    options.cancelled_callback = [this] { return isCancelled (); };
-    if (!progress_.is_none ())
-      options.progress_callback = [this] (double fraction) { tell (fraction); };
-    if constexpr (std::is_same_v<AnyOptions, Options>)
-      options.stage_callback = [this] (Stage stage) { stage_ = stageName (stage); };
-    else
-      stage_ = "texture";
-  }
-
-  /// To be called with the lock.
-  /// \throws what was raised during the run
-  void rethrow () const
-  {
-    if (raised_)
-      std::rethrow_exception (raised_);
-  }
-
-private:
-  void tell (double fraction)
-  {
-    if (raised_)
-      return;
-    const pybind11::gil_scoped_acquire lock;
-    try {
-      progress_ (stage_, fraction);
-    }
-    catch (const pybind11::error_already_set&) {
-      raised_ = std::current_exception ();
-    }
-  }
-
-  bool isCancelled ()
-  {
-    if (!raised_ && handles_signals_) {
-      const pybind11::gil_scoped_acquire lock;
+  // Signals are handled in the main thread only.
+  const auto threading = py::module_::import ("threading");
+  const bool handles_signals =
+      threading.attr ("current_thread") ().is (threading.attr ("main_thread") ());
+  const char* stage_now = "texture";
+  std::exception_ptr raised;
+  options.cancelled_callback = [&] {
+    if (!raised && handles_signals) {
+      const py::gil_scoped_acquire lock;
       if (PyErr_CheckSignals () != 0)
-        raised_ = std::make_exception_ptr (pybind11::error_already_set ());
+        raised = std::make_exception_ptr (py::error_already_set ());
     }
-    return raised_ != nullptr;
+    return raised != nullptr;
+  };
+  if constexpr (std::is_same_v<AnyOptions, Options>) {
+    stage_now = "";
+    options.stage_callback = [&] (Stage stage) { stage_now = stageName (stage); };
   }
-
-  pybind11::object progress_;
-  bool handles_signals_ = false;
-  const char* stage_ = "";
-  std::exception_ptr raised_;
-};
+  if (!progress.is_none ())
+    options.progress_callback = [&] (double fraction) {
+      if (raised)
+        return;
+      const py::gil_scoped_acquire lock;
+      try {
+        progress (stage_now, fraction);
+      }
+      catch (const py::error_already_set&) {
+        raised = std::current_exception ();
+      }
+    };
+  {
+    const py::gil_scoped_release release;
+    work ();
+  }
+  if (raised)
+    std::rethrow_exception (raised);
+}
 
 /// Takes the options that a dict has, each under the name that the tool has for it.
 struct OptionsReader
@@ -245,19 +228,15 @@ run (const py::buffer& points, const py::object& normals, const py::object& sens
   if (const Problem facing = checkFacing (input, options))
     throw py::value_error (facing.message);
 
-  Watch watch (progress);
-  watch.attachTo (options);
   const auto result = std::make_shared<Result> ();
   double seconds = 0.0;
-  {
-    const py::gil_scoped_release release;
+  watch (progress, options, [&] {
     const auto start = std::chrono::steady_clock::now ();
     // The status of a cloud without points comes from the same function as for the class.
     *result = input.positions.empty () ? reconstruct (std::vector<Eigen::Vector3d> (), options)
                                        : reconstruct (std::move (input), options);
     seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-  }
-  watch.rethrow ();
+  });
 
   const Report& report = result->report;
   nlohmann::ordered_json known;
@@ -304,14 +283,10 @@ textureOf (const py::buffer& points, const py::buffer& triangles, double largest
   options.largest_stretch = largest_stretch;
   options.whole_discs = whole_discs;
   options.threads = threads;
-  Watch watch (progress);
-  watch.attachTo (options);
   const auto texture = std::make_shared<TextureCoordinates> ();
-  {
-    const py::gil_scoped_release release;
+  watch (progress, options, [&] {
     *texture = computeTextureCoordinates (copyRows<Eigen::Vector3d> (rows), corners, options);
-  }
-  watch.rethrow ();
+  });
   const py::dict figures ("charts"_a = texture->chart_count, "flipped"_a = texture->flipped,
                           "stretch"_a = texture->stretch,
                           "largest_stretch"_a = texture->largest_stretch,

@@ -103,12 +103,11 @@ wrapTexts (CLI::App& app)
 void
 checkTextureOptions (const CommandLine& line)
 {
-  const std::optional<MeshFormat> format = line.meshFormat ();
-  if (line.texture_coordinates &&
-      (format == MeshFormat::STL || format == MeshFormat::OFF || format == MeshFormat::GLB))
+  const MeshFormat format = line.meshFormat ();
+  if (line.texture_coordinates && (format == writeStl || format == writeOff || format == writeGlb))
     throw UsageError ("STL, OFF and GLB are written without texture coordinates; write .vtk, .ply "
                       "or .obj, or leave --uv and --texture out");
-  if (line.texture_coordinates && format == MeshFormat::OBJ && isStandardStream (line.output))
+  if (line.texture_coordinates && format == writeObj && isStandardStream (line.output))
     throw UsageError ("the file of materials beside an OBJ file has no place on the standard "
                       "output; write .ply or .vtk there, or leave --uv and --texture out");
   if (!line.texture.empty () && lowerExtension (line.texture) != ".png")
@@ -267,7 +266,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   addOptions (app, command_line);
   if (const std::optional<int> done = parseArguments (app, arguments))
     return done;
-  if (command_line.compute_normals && command_line.meshFormat () == MeshFormat::STL)
+  if (command_line.compute_normals && command_line.meshFormat () == writeStl)
     command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
                                         "triangles only, write .ply, .vtk or .obj");
   if (command_line.options.disc.as_published) {
@@ -322,26 +321,23 @@ checkPaths (const CommandLine& line)
     if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
       throw UsageError ("the name of the file of materials or of the texture has a line break in "
                         "it, which files in OBJ cannot hold; choose another one");
-  const auto refuse = [] (const std::string& one, const std::string& other, const auto& path) {
-    throw UsageError (one + " and " + other + " are the same file, '" + path.string () +
-                      "'; give different ones");
-  };
   for (std::size_t i = 2; i < all.size (); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const auto& [name, path] = all[i];
       const auto& [other_name, other] = all[j];
       if (!path.empty () && !other.empty () && !isStandardStream (path) &&
           !isStandardStream (other) && areSame (path, other))
-        refuse (other_name, name, path);
+        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
+                          "'; give different ones");
     }
-  if (!line.meshFormat () && isStandardStream (line.output))
+  if (line.meshFormat () == nullptr && isStandardStream (line.output))
     throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
                       "--output-format ply");
-  if (!line.meshFormat ())
+  if (line.meshFormat () == nullptr)
     throw WriteError ("cannot write '" + line.output.string () +
                       "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
                       ", or give its format by --output-format");
-  if (!line.parameterization.empty () && !meshFormatOf (line.parameterization))
+  if (!line.parameterization.empty () && meshFormatOf (line.parameterization) == nullptr)
     throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
                       unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
   for (std::size_t i = 2; i < all.size (); ++i)

@@ -47,21 +47,21 @@ struct CommandLine
   std::size_t shown_triangles = 1'000'000; ///< most triangles of the page
   std::filesystem::path parameterization;
   std::filesystem::path loop;
-  std::filesystem::path texture;           ///< image of the colours of the points
-  int texture_size = 0;                    ///< of its side, in pixels; 0: chosen by the points
-  bool texture_coordinates = false;        ///< --uv; also if a texture is asked for
-  CloudFormat input_format = nullptr;      ///< nullptr: that of its extension
-  std::optional<MeshFormat> output_format; ///< nothing: that of its extension
-  std::array<std::size_t, 3> columns{};    ///< of x, y and z in text, from 1; zeros: found
-  std::vector<int> classes;                ///< of airborne scans; empty: all but noise
-  std::filesystem::path scratch;           ///< folder; used with a limit only
-  std::size_t max_memory = 0;              ///< bytes; 0: no limit
-  std::optional<Eigen::Vector3d> shift;    ///< --shift x,y,z
-  bool auto_shift = false;                 ///< --shift auto, or needed for floats
-  Precision precision = Precision::AUTO;   ///< of coordinates in outputs
-  bool use_input_normals = false;          ///< for tangent planes, and so for the facing
-  bool compute_normals = false;            ///< of the vertices of the mesh
-  Options options;                         ///< without the loop, which has not been read yet
+  std::filesystem::path texture;         ///< image of the colours of the points
+  int texture_size = 0;                  ///< of its side, in pixels; 0: chosen by the points
+  bool texture_coordinates = false;      ///< --uv; also if a texture is asked for
+  CloudFormat input_format = nullptr;    ///< nullptr: that of its extension
+  MeshFormat output_format = nullptr;    ///< nullptr: that of its extension
+  std::array<std::size_t, 3> columns{};  ///< of x, y and z in text, from 1; zeros: found
+  std::vector<int> classes;              ///< of airborne scans; empty: all but noise
+  std::filesystem::path scratch;         ///< folder; used with a limit only
+  std::size_t max_memory = 0;            ///< bytes; 0: no limit
+  std::optional<Eigen::Vector3d> shift;  ///< --shift x,y,z
+  bool auto_shift = false;               ///< --shift auto, or needed for floats
+  Precision precision = Precision::AUTO; ///< of coordinates in outputs
+  bool use_input_normals = false;        ///< for tangent planes, and so for the facing
+  bool compute_normals = false;          ///< of the vertices of the mesh
+  Options options;                       ///< without the loop, which has not been read yet
   bool quiet = false;
   bool verbose = false; ///< print all warnings, and what the run is not sure of
   bool json = false;
@@ -76,16 +76,16 @@ struct CommandLine
   /// How the input is read: all digits of a text count if it is shifted.
   ReadOptions readOptions () const { return {auto_shift || shift, columns, classes}; }
 
-  std::optional<MeshFormat> meshFormat () const
+  MeshFormat meshFormat () const
   {
-    return output_format ? output_format : meshFormatOf (output);
+    return output_format != nullptr ? output_format : meshFormatOf (output);
   }
 
   /// The file of materials beside an OBJ file with texture coordinates; else empty.
   std::filesystem::path materials () const
   {
-    return texture_coordinates && meshFormat () == MeshFormat::OBJ ? materialsBeside (output)
-                                                                   : std::filesystem::path ();
+    return texture_coordinates && meshFormat () == writeObj ? materialsBeside (output)
+                                                            : std::filesystem::path ();
   }
 };
 

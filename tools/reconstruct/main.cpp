@@ -192,9 +192,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
               OutputFiles& files)
 {
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
-                          const Triangles& triangles, std::optional<MeshFormat> format,
+                          const Triangles& triangles, MeshFormat format,
                           const TextureCoordinates* texture = nullptr) {
-    for (std::string& loss : writeMesh (path, vertices, triangles, *format, files, texture))
+    for (std::string& loss : writeMesh (path, vertices, triangles, format, files, texture))
       result.report.warnings.push_back (std::move (loss));
   };
   cloud.left_out.resize (cloud.rows, false);
@@ -218,7 +218,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
       result.report.warnings.push_back (std::move (note));
     std::vector<std::uint32_t> points = run.texture.points; // points on seams are doubled
     points.erase (std::unique (points.begin (), points.end ()), points.end ());
-    if (line.meshFormat () != MeshFormat::OBJ)
+    if (line.meshFormat () != writeObj)
       run.vertices += run.texture.points.size () - points.size ();
   }
   stage (line.output, cloud, result.triangles, line.meshFormat (),

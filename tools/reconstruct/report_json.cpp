@@ -63,17 +63,6 @@ PCL_FLOATER_TO_JSON (MeshCheck, nonmanifold_edges, nonmanifold_vertices, compone
 // NOLINTEND(readability-identifier-naming)
 
 namespace {
-Json
-checkJson (const MeshCheck& check, bool is_view)
-{
-  Json json;
-  if (check.done)
-    json = check;
-  if (check.done && is_view)
-    json["self_intersections"] = nullptr; // they have not been searched
-  return json;
-}
-
 // How many parts of the mesh face as they do by each rule that turned any.
 Json
 facingPartsJson (const Report& report)
@@ -168,6 +157,9 @@ viewpointJson (const Report& report)
 nlohmann::ordered_json
 resultJson (const Report& report)
 {
+  Json check = report.check.done ? Json (report.check) : Json ();
+  if (report.check.done && report.is_view)
+    check["self_intersections"] = nullptr; // they have not been searched
   return {{"verdict",
            {{"value", qualityName (report.verdict.value)},
             {"cause", report.verdict.cause},
@@ -176,7 +168,7 @@ resultJson (const Report& report)
           {"topology_reason", report.topology_reason},
           {"viewpoint", viewpointJson (report)},
           {"denoised", report.denoised},
-          {"check", checkJson (report.check, report.is_view)},
+          {"check", check},
           {"loop_decisions", report.loop_decisions},
           {"facing_certainty", report.facing_certainty},
           {"facing_parts", facingPartsJson (report)},
