@@ -293,6 +293,19 @@ evenSphere (std::size_t count, const Eigen::Vector3d& centre = Eigen::Vector3d::
   return points;
 }
 
+/// The points of a lattice on the faces of a cube from 0 to `last`.
+inline Positions
+latticeCube (int last)
+{
+  Positions points;
+  for (int x = 0; x <= last; ++x)
+    for (int y = 0; y <= last; ++y)
+      for (int z = 0; z <= last; ++z)
+        if (x % last == 0 || y % last == 0 || z % last == 0)
+          points.emplace_back (x, y, z);
+  return points;
+}
+
 inline bool
 warns (const Report& report, const std::string& words)
 {

@@ -286,11 +286,6 @@ TEST (Reconstruct, AGivenLoopKeepsADuplicateThatIsAnOutlier)
 // still has it so afterwards.
 TEST (Reconstruct, NumbersOfTheLibraryDoNotTrap)
 {
-  Positions lattice; // on the faces of a cube
-  for (int i = 0; i < 9 * 9 * 9; ++i)
-    if (const Eigen::Vector3d p (i % 9, i / 9 % 9, i / 81);
-        (p.array () == 0 || p.array () == 8).any ())
-      lattice.push_back (p);
   const auto run = [] (const Positions& positions) {
     constexpr int TRAPS = FE_INVALID | FE_DIVBYZERO;
     Options options;
@@ -302,7 +297,7 @@ TEST (Reconstruct, NumbersOfTheLibraryDoNotTrap)
     fedisableexcept (FE_ALL_EXCEPT);
     EXPECT_NE (result.report.status, RunStatus::INTERNAL_ERROR);
   };
-  run (lattice);
+  run (latticeCube (8));
   Positions pencil; // segments from one point, which stars see end on
   for (int i = 0; i < 200; ++i)
     for (int k = 1; k < 6; ++k)

@@ -91,8 +91,6 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "longer");
   report.findings = {{FindingId::GUESSED_UP, {}, {1}, {}}};
   expectIn (judge (report).cause, "guess");
-  report.findings = {{FindingId::SPARSE_SHAPE, {}, {12}, {}}};
-  expectIn (judge (report).cause, "too few for the shape");
   report.findings = {{FindingId::NO_AREA, {}, {2}, {}}};
   expectIn (judge (report).cause, "no area");
   report.findings = {{FindingId::SMALL_HOLES, {}, {1, 10}, {}}};
@@ -103,29 +101,6 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   expectIn (judge (report).cause, "holes stay open");
   report.findings = {{FindingId::ONE_SIDED, {}, {8}, {}}};
   expectIn (judge (report).cause, "one-sided");
-}
-
-TEST (Verdict, TooFewPointsForTheShapeAreTold)
-{
-  Positions rough = evenSphere (300), cube;
-  RandomStream random (17);
-  for (Eigen::Vector3d& p : rough)
-    p *= 0.7 + 0.6 * random.uniform ();
-  constexpr int LAST = 5;
-  const auto isEnd = [] (int i) { return i == 0 || i == LAST; };
-  for (int x = 0; x <= LAST; ++x)
-    for (int y = 0; y <= LAST; ++y)
-      for (int z = 0; z <= LAST; ++z)
-        if (isEnd (x) || isEnd (y) || isEnd (z))
-          cube.emplace_back (x, y, z);
-  const std::string told = "the points are too few for the shape";
-  const Report report = reconstruct (rough, {}).report;
-  EXPECT_TRUE (warns (report, told));
-  EXPECT_NE (report.verdict.value, Quality::GOOD);
-  for (const Positions& enough : {evenSphere (300), cube}) {
-    EXPECT_FALSE (warns (reconstruct (enough, {}).report, told));
-    EXPECT_EQ (reconstruct (enough, {}).report.verdict.value, Quality::GOOD);
-  }
 }
 
 TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)
@@ -145,18 +120,23 @@ TEST (Verdict, TheLargestHundredthOfTheTrianglesIsMeasured)
 
 TEST (Verdict, OfGeneratedClouds)
 {
-  const auto of = [] (const KnownSurface& surface) {
-    return reconstruct (asInput (surface.points), {}).report.verdict.value;
-  };
-  EXPECT_EQ (of (sheetWithHoles (3, 15.0, 5.0, 5.0, 2)), Quality::GOOD);
-  EXPECT_EQ (of (prism ({rectangle (25.0, 18.0)}, 15.0, 1)), Quality::GOOD);
-  EXPECT_EQ (of (withNoise (sheetWithHoles (1, 25.0, 10.0, 10.0, 1), 0.5, 6)), Quality::USABLE);
+  const auto of = [] (const Positions& points) { return reconstruct (points, {}).report.verdict; };
+  for (const Positions& clean :
+       {sheetWithHoles (3, 15.0, 5.0, 5.0, 2).points,
+        prism ({rectangle (25.0, 18.0)}, 15.0, 1).points, evenSphere (300), latticeCube (5)})
+    EXPECT_EQ (of (clean).value, Quality::GOOD);
+  const KnownSurface noisy = withNoise (sheetWithHoles (1, 25.0, 10.0, 10.0, 1), 0.5, 6);
+  EXPECT_EQ (of (noisy.points).value, Quality::USABLE);
+  Positions rough = evenSphere (300);
+  RandomStream random (17);
+  for (Eigen::Vector3d& p : rough)
+    p *= 0.7 + 0.6 * random.uniform ();
+  expectIn (of (rough).cause, "too few for the shape");
 }
 
 TEST (Verdict, ThereIsNoneWithoutAMesh)
 {
-  const Result result =
-      reconstruct (std::vector<Eigen::Vector3d> (5, Eigen::Vector3d::Zero ()), {});
+  const Result result = reconstruct (Positions (5, Eigen::Vector3d::Zero ()), {});
   EXPECT_EQ (result.report.verdict.value, Quality::NO_MESH);
   EXPECT_STREQ (qualityName (Quality::NO_MESH), "none");
   EXPECT_STREQ (qualityName (Quality::POOR), "poor");

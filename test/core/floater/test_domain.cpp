@@ -28,15 +28,10 @@ struct Loop
     positions.push_back (position);
     points.push_back (static_cast<Index> (points.size ()));
   }
-  std::size_t size () const { return points.size (); }
   Places lay (Domain domain, int sides = SIDES,
               LoopSpacing spacing = LoopSpacing::CHORD_LENGTH) const
   {
     return layLoop (positions, points, {domain, sides, spacing});
-  }
-  double chord (std::size_t i) const
-  {
-    return (positions[(i + 1) % size ()] - positions[i]).norm ();
   }
 };
 
@@ -68,7 +63,7 @@ slantedLoop (const Places& corners, int steps)
   return loop;
 }
 
-// Step lengths are equal, or vary by about two orders of magnitude.
+// Step lengths vary by about so many orders of magnitude.
 Loop
 unevenLoop (std::size_t count, std::uint64_t seed, double orders = 2.0)
 {
@@ -82,12 +77,6 @@ unevenLoop (std::size_t count, std::uint64_t seed, double orders = 2.0)
   for (double& turn : turns)
     turn /= sum;
   return roundLoop (turns);
-}
-
-Loop
-evenLoop (std::size_t count)
-{
-  return unevenLoop (count, 1, 0.0);
 }
 
 // Expects a left turn at every point, and one turn in all. Differences of nearly equal doubles are
@@ -122,7 +111,7 @@ TEST (Domain, EvenLoopsLieOnRegularPolygons)
     SCOPED_TRACE (sides);
     const auto corners = static_cast<std::size_t> (sides);
     const Places uv =
-        evenLoop (4 * corners).lay (sides == 4 ? Domain::SQUARE : Domain::POLYGON, sides);
+        unevenLoop (4 * corners, 1, 0.0).lay (sides == 4 ? Domain::SQUARE : Domain::POLYGON, sides);
     const auto corner = [&] (std::size_t c) -> Eigen::Vector2d { // the first side is the bottom
       const double angle = PI * (2.0 * static_cast<double> (c) - 1.0) / sides - 0.5 * PI;
       return {std::cos (angle), std::sin (angle)};
@@ -160,8 +149,8 @@ TEST (Domain, EveryCornerHasItsOwnPoint)
 // rough outlines.
 TEST (Domain, EveryLoopIsStrictlyConvex)
 {
-  std::vector<Loop> loops{evenLoop (3),
-                          evenLoop (100000),
+  std::vector<Loop> loops{unevenLoop (3, 1, 0.0),
+                          unevenLoop (100000, 1, 0.0),
                           unevenLoop (100000, 4),
                           roundLoop (std::vector<double> (8, 0.0)),
                           slantedLoop ({{0, 0}, {1, 0}, {3, 0}}, 5),
@@ -195,20 +184,22 @@ TEST (Domain, EveryLoopIsStrictlyConvex)
 
 TEST (Domain, StepsAreByLengthByItsRootOrEqual)
 {
-  const Loop loop = unevenLoop (50, 6);
+  constexpr std::size_t COUNT = 50;
+  const Loop loop = unevenLoop (COUNT, 6);
   for (const auto& [spacing_name, spacing] : SPACING_CHOICES) {
     const auto step = [&] (std::size_t i) {
+      const double chord = (loop.positions[(i + 1) % COUNT] - loop.positions[i]).norm ();
       return spacing == LoopSpacing::UNIFORM       ? 1.0
-             : spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (loop.chord (i))
-                                                   : loop.chord (i);
+             : spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (chord)
+                                                   : chord;
     };
     double total = 0.0;
-    for (std::size_t i = 0; i < loop.size (); ++i)
+    for (std::size_t i = 0; i < COUNT; ++i)
       total += step (i);
     const Places uv = loop.lay (Domain::CIRCLE, SIDES, spacing);
     EXPECT_EQ (uv[0], Eigen::Vector2d (1.0, 0.0));
     double length = 0.0;
-    for (std::size_t i = 0; i < loop.size (); ++i) {
+    for (std::size_t i = 0; i < COUNT; ++i) {
       const double angle = 2.0 * PI * length / total;
       EXPECT_NEAR (uv[i].x (), std::cos (angle), 1e-13);
       EXPECT_NEAR (uv[i].y (), std::sin (angle), 1e-13);

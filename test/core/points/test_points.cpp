@@ -257,13 +257,7 @@ TEST (CoordinateGrid, ARasterIsNoFlaw)
     EXPECT_EQ (gridOf (asFloats (raster (step, 1, ON_A_MAP))).step, 0.0);
   // Flat ones, and voxels of a solid's surface.
   EXPECT_EQ (gridOf (disc (0.05, 1).positions).step, 0.0);
-  Positions voxels;
-  for (int x = 0; x < 12; ++x)
-    for (int y = 0; y < 12; ++y)
-      for (int z = 0; z < 12; ++z)
-        if (x % 11 == 0 || y % 11 == 0 || z % 11 == 0)
-          voxels.emplace_back (x, y, z);
-  EXPECT_EQ (gridOf (voxels).step, 0.0);
+  EXPECT_EQ (gridOf (latticeCube (11)).step, 0.0);
 }
 
 } // namespace

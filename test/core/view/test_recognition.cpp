@@ -312,9 +312,9 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   }
   const auto rowsOf = [] (const Positions& positions) {
     const Points points = workingPoints (positions);
-    const CsrLists neighbors = findNeighbors (points, {}, 1);
+    const CsrLists all = findNeighbors (points, {}, 1);
     return findRows (
-        points, [&neighbors] (Index p) { return neighbors.row (p); }, 200);
+        points, [&all] (Index p) { return all.row (p); }, 200);
   };
   EXPECT_GT (rowsOf (lines).share, 0.95);
   EXPECT_TRUE (rowsOf (lines).are_straight);
