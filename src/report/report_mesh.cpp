@@ -23,6 +23,8 @@ constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as
 // clouds.
 constexpr double BENT_SHARE = 0.06, BENT_BY_SHAPE = 2.0;
 constexpr std::size_t FEWEST_BENT = 100; // points
+constexpr std::size_t ROUGH_SHARE =
+    10; // one in so many is noisy or stacked at most: both bend edges
 
 void
 findShape (const Points& points, const MeshExamination& found, Report& report)
@@ -36,7 +38,9 @@ findShape (const Points& points, const MeshExamination& found, Report& report)
                 check.self_intersections, report.denoised ? 1 : 0,
                 check.has_more_self_intersections ? 1 : 0);
   const auto vertices = static_cast<double> (points.size () - found.unused.size ());
-  if (!report.is_view && !report.denoised && report.statistics.stacked_points == 0 &&
+  const Statistics& statistics = report.statistics;
+  const std::size_t rough = statistics.projected_points + statistics.stacked_points;
+  if (!report.is_view && rough <= statistics.working_points / ROUGH_SHARE &&
       points.size () >= FEWEST_BENT && found.bent_share > BENT_SHARE &&
       found.bent_share > BENT_BY_SHAPE / std::sqrt (vertices))
     addFinding (report, FindingId::SPARSE_SHAPE, points, {}, 100.0 * found.bent_share);
