@@ -130,7 +130,7 @@ TEST (Verdict, OfGeneratedClouds)
   Positions rough = evenSphere (300);
   RandomStream random (17);
   for (Eigen::Vector3d& p : rough)
-    p *= 0.7 + 0.6 * random.uniform ();
+    p *= 0.82 + 0.36 * random.uniform ();
   expectIn (of (rough).cause, "too few for the shape");
 }
 
