@@ -4,9 +4,7 @@
 // another.
 #pragma once
 
-#include "core/csr_lists.h"
 #include "core/run_context.h"
-#include "points/neighbors.h"
 #include "points/points.h"
 #include "view/rays.h"
 
@@ -15,18 +13,6 @@
 namespace pcl::floater {
 /// Points of a patch of rays, sorted by the angle to the first ray.
 using RayPatch = std::vector<Index>;
-
-struct RowEvidence
-{
-  double share = 0.0; ///< share of points between their two nearest neighbours, on opposite sides
-  Eigen::Vector3d across = Eigen::Vector3d::Zero (); ///< unit vector across the planes of the rows
-  bool are_straight = true; ///< nearly all have one direction, so their planes are undetermined
-};
-
-/// \param row_of neighbours of a point, nearest first
-/// \param count number of tested points, spread evenly over their order. O(count).
-RowEvidence
-findRows (const Points& points, const RowOf& row_of, std::size_t count);
 
 struct EvidenceLimits
 {

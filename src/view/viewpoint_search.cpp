@@ -6,6 +6,7 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "view/pattern_search.h"
+#include "view/row_evidence.h"
 
 #include <Eigen/Geometry>
 
@@ -49,8 +50,6 @@ public:
     for (std::size_t i = 0; i < samples_.size (); i += EVERY)
       few_samples_.push_back (samples_[i]);
   }
-
-  bool hasSamples () const { return samples_.size () >= limits_.samples / 2; }
 
   // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
   std::optional<Viewpoint> findAlongRows (const Eigen::Vector3d& across) const
@@ -411,7 +410,7 @@ findViewpoint (const Points& points, const RowOf& row_of, const std::vector<Area
         return found;
   }
   constexpr std::size_t LEAST_SHARE = 4; // a quarter of the patches
-  if (LEAST_SHARE * filled.patches < evidence.patches || !search.hasSamples () ||
+  if (LEAST_SHARE * filled.patches < evidence.patches || samples.size () < limits.samples / 2 ||
       (spreadOfAreas (samples) > limits.even) != for_uneven)
     return {};
   return search.find ();
