@@ -120,6 +120,26 @@ TEST (Stars, TheFilterKeepsSheetsApart)
   EXPECT_GT (shareOfStrays (plain, 1.7), 0.002);
 }
 
+// On lines ten times as far apart as their points.
+TEST (TangentPlanes, RowsOfSinglePointsAreThoseOfAll)
+{
+  Positions lines;
+  for (int i = 0; i < 3000; ++i)
+    lines.emplace_back (i % 100, 10.0 * (i / 100),
+                        std::sin (0.1 * i)); // NOLINT (bugprone-integer-division)
+  const Points points = workingPoints (lines);
+  StarSettings settings;
+  settings.reach_beyond = true;
+  const LocalPlanes begun = beginPlanes (points, findNeighbors (points, {}, 1), {}, settings, 1);
+  const LocalPlanes fitted = fitLocalPlanes (points, begun, settings, 1);
+  const RowOf row_of = rowsBeside (points, begun, settings, {});
+  EXPECT_GT (fitted.neighbors.ids.size (), begun.neighbors.ids.size () + points.size ());
+  for (Index p = static_cast<Index> (points.size ()); p-- > 0;) { // in another order
+    const Row own = row_of (p), all = fitted.neighbors.row (p);
+    ASSERT_TRUE (std::equal (own.begin (), own.end (), all.begin (), all.end ())) << p;
+  }
+}
+
 TEST (LocalSpacing, IsTheMeanOfTheSixNearest)
 {
   Positions grid;

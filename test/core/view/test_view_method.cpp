@@ -187,7 +187,8 @@ TEST (ViewMethod, DiagonalsAreChosenForSmoothness)
   const Result without = reconstruct (scan.points, options);
   EXPECT_EQ (without.report.statistics.flips, 0U);
   EXPECT_EQ (with.triangles.size (), without.triangles.size ());
-  EXPECT_LT (with.report.check.folds, 0.8 * without.report.check.folds);
+  // 0.36; in the order of the edges, instead of the best first, 0.48.
+  EXPECT_LT (with.report.check.folds, 0.42 * without.report.check.folds);
 }
 
 TEST (ViewMethod, AViewThatLeavesManyPointsOutIsTold)
