@@ -46,7 +46,7 @@ struct Row
   Index operator[] (std::size_t i) const { return first[i]; }
 };
 
-/// Gives a row of a table, which is valid until it is called again.
+/// A function that gives the row of a point. The row is valid until the next call.
 using RowOf = std::function<Row (Index)>;
 
 /// One list of indices for each row, all in one array: row r is ids[begin (r)] to

@@ -36,8 +36,8 @@ LocalPlanes
 beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
              const StarSettings& settings, const RunContext& run);
 
-/// The neighbours that fitLocalPlanes () will give a point; if it was called, those it has. For single
-/// points, of which that asks two searches if they are on a line.
+/// Gives the neighbours of single points as they are after fitLocalPlanes (), which may follow later. Two
+/// searches for each point on a line. For one thread.
 /// \param points, planes must outlive the result
 RowOf
 rowsBeside (const Points& points, const LocalPlanes& planes, const StarSettings& settings,

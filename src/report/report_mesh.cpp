@@ -22,9 +22,9 @@ constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as
 // mistake 0.064 to 0.32. A cube of n points has 1.6 / sqrt (n), a plate 1.9: such edges are few in large
 // clouds.
 constexpr double BENT_SHARE = 0.06, BENT_BY_SHAPE = 2.0;
-constexpr std::size_t FEWEST_BENT = 100; // points
-constexpr std::size_t ROUGH_SHARE =
-    10; // one in so many is noisy or stacked at most: both bend edges
+constexpr std::size_t FEWEST_BENT = 100; // points; a body of few may be all sharp: an octahedron
+// Noisy and stacked points bend edges, too: they may be one in so many.
+constexpr std::size_t NOISY_OR_STACKED = 10;
 
 void
 findShape (const Points& points, const MeshExamination& found, Report& report)
@@ -39,8 +39,8 @@ findShape (const Points& points, const MeshExamination& found, Report& report)
                 check.has_more_self_intersections ? 1 : 0);
   const auto vertices = static_cast<double> (points.size () - found.unused.size ());
   const Statistics& statistics = report.statistics;
-  const std::size_t rough = statistics.projected_points + statistics.stacked_points;
-  if (!report.is_view && rough <= statistics.working_points / ROUGH_SHARE &&
+  const std::size_t unclear = statistics.projected_points + statistics.stacked_points;
+  if (!report.is_view && unclear <= statistics.working_points / NOISY_OR_STACKED &&
       points.size () >= FEWEST_BENT && found.bent_share > BENT_SHARE &&
       found.bent_share > BENT_BY_SHAPE / std::sqrt (vertices))
     addFinding (report, FindingId::SPARSE_SHAPE, points, {}, 100.0 * found.bent_share);
