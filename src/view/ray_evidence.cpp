@@ -296,7 +296,7 @@ densitiesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patc
     std::nth_element (squares.begin (), squares.begin () + rank - 1, squares.end ());
     const Ray &ray = rays[i], &nearest = rays[near.front ().second];
     const double second = std::sqrt (near[1].first);
-    const double width = second * (viewpoint.is_far ? 1.0 : ray.depth);
+    const double width = second * ray.depth;
     const bool is_near = std::sqrt (near.front ().first) < limits.near_ratio * second;
     found.push_back (
         {ray.depth, std::sqrt (near[limits.density_rank - 1].first),
@@ -329,8 +329,7 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
   if (depths.empty ())
     return {};
   const double depth = median (depths);
-  const double least =
-      viewpoint.is_far ? -std::numeric_limits<double>::infinity () : limits.at_sensor * depth;
+  const double least = limits.at_sensor * depth;
   std::size_t near = 0, hidden = 0;
   std::vector<double> of_rays, of_points;
   for (const std::vector<RayDensity>& rays : of_patch)
@@ -357,10 +356,11 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
   const DensityEvidence found = findDensityEvidence (positions, patches, viewpoint, limits, run);
   const double left = found.ray_spread / std::max (found.point_spread, limits.least_density_spread);
   if (!(found.point_spread >= limits.least_density_spread && left <= limits.density_regularity &&
-        found.near_share <= limits.crossing_share &&
-        found.hidden_share * left <= limits.hidden_share * limits.density_regularity))
+        found.near_share <= limits.crossing_share))
     return false;
-  if (viewpoint.is_far || found.ray_spread <= limits.even_density)
+  const bool hides_little =
+      found.hidden_share * left <= limits.hidden_share * limits.density_regularity;
+  if (hides_little && found.ray_spread <= limits.even_density)
     return true;
   EvidenceLimits few = limits;
   few.patches = std::min (limits.patches_beside, limits.patches);
@@ -368,7 +368,7 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
     return findDensityEvidence (positions, findRayPatches (positions, v, few, run), v, few, run)
         .ray_spread;
   };
-  const double least = limits.less_beside * spreadAt (viewpoint);
+  const double least = (hides_little ? limits.less_beside : 1.0) * spreadAt (viewpoint);
   for (int axis = 0; axis < 3; ++axis)
     for (const double aside : {-limits.beside * found.depth, limits.beside * found.depth})
       if (spreadAt ({viewpoint.place + aside * Eigen::Vector3d::Unit (axis), false}) < least)

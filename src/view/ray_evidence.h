@@ -47,8 +47,8 @@ struct EvidenceLimits
   double hidden_share = 0.004;  ///< largest share of rays beside which one goes far beyond or ends
                                 ///< far before, where the densities just meet density_regularity;
                                 ///< more if they are more alike, in proportion. A clean depth frame
-  ///< seen from 60 % of its depth beside the camera has 0.009 at 0.34; a
-  ///< scan from a moving car 0.018 at 0.06; from a standing one, 0.003
+  ///< seen from 60 % of its depth beside the camera has 0.009 at 0.34; scans
+  ///< from a moving car 0.003 to 0.022 at 0.2; from a standing one, 0.003
   double hidden_if_told = 0.03; ///< `hidden_share` of a scan whose place is told, such as one with
                                 ///< much noise after a voxel filter, 0.018. Bodies seen from
                                 ///< outside have 0.1 and more
@@ -56,11 +56,12 @@ struct EvidenceLimits
                                 ///< as StepLimits::slope
   double beside = 0.25; ///< of the median depth: distance of six places around the viewpoint from
                         ///< which the densities must not be more alike ...
-  double less_beside = 0.7; ///< ... than this factor, ...
+  double less_beside = 0.7; ///< ... than this factor, or at all if too much is hidden, ...
   double even_density =
-      0.2; ///< ... unless their spread is below this at the viewpoint. A quarter of
-           ///< the depth nearer to the right place, generated scans have a factor
-           ///< of 0.4 to 0.77; around the right place, 0.89 and more
+      0.2; ///< ... unless their spread is below this at the viewpoint, and little is
+           ///< hidden. A quarter of the depth nearer to the right place, generated
+           ///< scans have a factor of 0.4 to 0.77; around the right place, 0.89 and
+           ///< more; around that of 48 scans from a moving car, 1.2 to 1.9
   std::size_t patches_beside = 32; ///< for this comparison
   double all_sides =
       20.0; ///< degrees; if there is a ray in each direction to this angle, the points
@@ -109,9 +110,10 @@ bool
 isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits);
 
 /// Whether the viewpoint explains the density of the points: that of their rays is the same
-/// everywhere, unlike that of the points, also unlike that seen from places beside, and no point
-/// hides others. Also for rays that are locally
-/// uneven, such as rings with lost points. O(n + patches * points of a patch squared).
+/// everywhere, unlike that of the points; and hardly any point hides others, or the density is
+/// less even from all places beside. Also for rays that are locally uneven, such as rings with lost
+/// points. O(n log n + patches * points of a patch squared).
+/// \param viewpoint not far away
 /// \param patches found at the viewpoint
 bool
 explainsDensity (const std::vector<Eigen::Vector3d>& positions,

@@ -112,21 +112,13 @@ isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimi
   if (points.size () < limits.fewest_patches * limits.patch_points ||
       looksToAllSides (points.positions, viewpoint, limits))
     return false;
-  // A few patches suffice to reject most wrong viewpoints, with a looser threshold.
-  constexpr std::size_t FEW = 8;
-  constexpr double LENIENT = 2.0;
-  RayEvidence evidence;
-  std::vector<RayPatch> patches;
-  for (const std::size_t count : {std::min (limits.patches, FEW), limits.patches}) {
-    EvidenceLimits round = limits;
-    round.patches = count;
-    patches = findRayPatches (points.positions, viewpoint, round, run);
-    evidence = findRayEvidence (points.positions, patches, viewpoint, limits, run);
-    if (evidence.nearShare () > LENIENT * limits.crossing_share)
-      return false;
-  }
+  constexpr double AT_SENSOR =
+      2.0; // times as many: explainsDensity () leaves out points at the sensor
+  const std::vector<RayPatch> patches = findRayPatches (points.positions, viewpoint, limits, run);
+  const RayEvidence evidence = findRayEvidence (points.positions, patches, viewpoint, limits, run);
   return isSeenFromThere (evidence, limits) ||
-         explainsDensity (points.positions, patches, viewpoint, limits, run);
+         (evidence.nearShare () <= AT_SENSOR * limits.crossing_share &&
+          explainsDensity (points.positions, patches, viewpoint, limits, run));
 }
 
 ViewSurface

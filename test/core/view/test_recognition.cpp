@@ -77,8 +77,11 @@ TEST (Recognition, ASensorInTheFileDecidesWhereThePointsDoNotTell)
 }
 
 // Rings of a car's lidar: each begins anywhere, they are unevenly far apart, and rays are lost.
+// \param drive way of the car during the turn, in whose middle it is at the place
 Scan
-scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed)
+scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed,
+           const Eigen::Vector3d& drive = Eigen::Vector3d::Zero (),
+           const Scene& scene = courtyard ())
 {
   RandomStream random (seed);
   std::vector<ScanRay> rays;
@@ -87,10 +90,13 @@ scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed)
       const double elevation = -24.0 + (ring < 20 ? 0.8 * ring : 16.0 + 0.35 * (ring - 20));
       const Eigen::AngleAxisd turn (random.uniform (), Eigen::Vector3d::UnitZ ());
       for (ScanRay& ray : raysInRings (place, 1, 900, elevation, 0.0))
-        if (random.uniform () > 0.1)
-          rays.push_back ({place, turn * ray.along});
+        if (random.uniform () > 0.1) {
+          const Eigen::Vector3d along = turn * ray.along;
+          const double turned = std::atan2 (along.y (), along.x ()) / (2.0 * PI);
+          rays.push_back ({place + turned * drive, along});
+        }
     }
-  return castRays (courtyard (), rays, {0.002, 0.0}, random);
+  return castRays (scene, rays, {0.002, 0.0}, random);
 }
 
 // The origin is tried first, and taken as it is.
@@ -103,6 +109,26 @@ TEST (Recognition, ASensorInTheOriginIsToldFromOneBesideIt)
     EXPECT_LT ((foundIn (viewOf (scanOfCar ({beside}, seed), {}).report) - beside).norm (), 0.1);
     EXPECT_FALSE (meshOf (scanOfCar ({origin, beside}, seed).points).report.is_view);
   }
+}
+
+// While the lidar turns, the car drives: rays to the sides of a post cross, and one of two near rays ends far
+// behind the other one.
+TEST (Recognition, AScanFromADrivingCarIsRecognised)
+{
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero ();
+  Scene street = courtyard ();
+  RandomStream random (1);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = between (random, 0.0, 2.0 * PI), distance = between (random, 3.0, 6.0);
+    street.things.push_back (
+        {{distance * std::cos (angle), distance * std::sin (angle), -1.6}, 0.1, true});
+  }
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    for (const double way : {1.0, 1.5}) {
+      SCOPED_TRACE (way);
+      const Scan scan = scanOfCar ({origin}, seed, way * Eigen::Vector3d::UnitX (), street);
+      EXPECT_EQ (foundIn (viewOf (scan, {}).report), origin) << seed;
+    }
 }
 
 TEST (Recognition, WhatNoSensorSawIsNoScan)
