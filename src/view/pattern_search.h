@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace pcl::floater {
 /// A viewpoint and its cost.
@@ -17,6 +18,34 @@ struct RatedViewpoint
   double cost;
   Viewpoint viewpoint;
 };
+
+inline bool
+isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
+{
+  return a.cost < b.cost;
+}
+
+/// The first candidates without those near an earlier one.
+inline std::vector<RatedViewpoint>
+keepApart (const std::vector<RatedViewpoint>& candidates, double distance, std::size_t most)
+{
+  std::vector<RatedViewpoint> kept;
+  for (const RatedViewpoint& one : candidates)
+    if (kept.size () < most &&
+        std::none_of (kept.begin (), kept.end (), [&] (const RatedViewpoint& other) {
+          return other.viewpoint.is_far == one.viewpoint.is_far &&
+                 (other.viewpoint.place - one.viewpoint.place).norm () < distance;
+        }))
+      kept.push_back (one);
+  return kept;
+}
+
+/// The direction of rays from far beyond a place.
+inline Viewpoint
+farFrom (const Viewpoint& near, const Eigen::Vector3d& middle)
+{
+  return {(middle - near.place).normalized (), true};
+}
 
 /// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or rotates the direction
 /// of a far one; repeats moves that lowered the cost, and otherwise halves the step, until it is below

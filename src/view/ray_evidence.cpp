@@ -306,12 +306,7 @@ densitiesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patc
   return found;
 }
 
-struct DensityEvidence
-{
-  double near_share = 1.0, hidden_share = 1.0;
-  double ray_spread = 0.0, point_spread = 0.0;
-  double depth = 0.0; // median of the rays
-};
+} // namespace
 
 DensityEvidence
 findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
@@ -346,15 +341,13 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
           spreadOf (of_rays), spreadOf (of_points), depth};
 }
 
-} // namespace
-
 bool
 explainsDensity (const std::vector<Eigen::Vector3d>& positions,
                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits, const RunContext& run)
 {
   const DensityEvidence found = findDensityEvidence (positions, patches, viewpoint, limits, run);
-  const double left = found.ray_spread / std::max (found.point_spread, limits.least_density_spread);
+  const double left = found.left (limits);
   if (!(found.point_spread >= limits.least_density_spread && left <= limits.density_regularity &&
         found.near_share <= limits.crossing_share))
     return false;

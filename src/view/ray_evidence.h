@@ -8,6 +8,7 @@
 #include "points/points.h"
 #include "view/rays.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace pcl::floater {
@@ -108,6 +109,30 @@ findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<
 /// Whether the evidence shows that the cloud was seen from the viewpoint.
 bool
 isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits);
+
+/// How dense the points are, and their rays: by the distance to the neighbour of density_rank. Without the
+/// points at the sensor.
+struct DensityEvidence
+{
+  double near_share = 1.0;   ///< as RayEvidence::nearShare
+  double hidden_share = 1.0; ///< of rays beside which one goes far beyond, or ends far before
+  double ray_spread = 0.0;   ///< as RayEvidence::ray_spread, over the whole cloud
+  double point_spread = 0.0; ///< of the points in space
+  double depth = 0.0;        ///< median of the rays
+
+  /// Share of the points' spread that is left in the rays.
+  double left (const EvidenceLimits& limits) const
+  {
+    return ray_spread / std::max (point_spread, limits.least_density_spread);
+  }
+};
+
+/// O(patches * points of a patch squared).
+/// \param viewpoint not far away
+DensityEvidence
+findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
+                     const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                     const EvidenceLimits& limits, const RunContext& run);
 
 /// Whether the viewpoint explains the density of the points: that of their rays is the same
 /// everywhere, unlike that of the points; and hardly any point hides others, or the density is

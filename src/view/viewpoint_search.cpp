@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "view/pattern_search.h"
 #include "view/row_evidence.h"
 
 #include <Eigen/Geometry>
@@ -16,17 +15,6 @@
 
 namespace pcl::floater {
 namespace {
-// Spread of the areas without any viewpoint.
-double
-spreadOfAreas (const std::vector<AreaSample>& samples)
-{
-  std::vector<double> areas;
-  areas.reserve (samples.size ());
-  for (const AreaSample& sample : samples)
-    areas.push_back (sample.area);
-  return quartileSpread (areas);
-}
-
 class ViewpointSearch
 {
 public:
@@ -46,9 +34,6 @@ public:
       evidence_ = lenient_;
     coarse_ = evidence_;
     coarse_.patches = std::min (coarse_.patches, limits.coarse_patches);
-    constexpr std::size_t EVERY = 4;
-    for (std::size_t i = 0; i < samples_.size (); i += EVERY)
-      few_samples_.push_back (samples_[i]);
   }
 
   // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
@@ -87,35 +72,8 @@ public:
 
   std::optional<Viewpoint> find () const
   {
-    std::vector<RatedViewpoint> descents = startingPlaces ();
-    std::stable_sort (descents.begin (), descents.end (), isCheaper);
-    // A quarter of the samples gives the spread to twice the error.
-    constexpr double ERROR = 0.12;
-    if (descents.front ().cost > (1.0 + ERROR) * limits_.explained * spreadOfAreas (few_samples_))
-      return {};
-    descents = keepApart (descents, 2.0 * cell (), limits_.starts);
-    parallelTasks (run_, descents.size (), [&] (std::size_t k) {
-      std::vector<double> angles;
-      const auto cost = [&] (const Viewpoint& v) { return areaSpread (samples_, v, angles); };
-      descents[k] = patternSearch (descents[k].viewpoint, cell (), SMALLEST_AREA_STEP,
-                                   box_.center (), limits_.area_evaluations, cost);
-    });
     std::vector<RatedViewpoint> candidates =
-        keepApart (descents, 4.0 * SMALLEST_AREA_STEP, descents.size ());
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    const double spread = spreadOfAreas (samples_);
-    if (candidates.empty () || candidates.front ().cost > limits_.explained * spread)
-      return {};
-    const double most = spread - limits_.as_good * (spread - candidates.front ().cost);
-    const auto isWorse = [&] (const RatedViewpoint& one) {
-      std::vector<double> angles;
-      return one.cost > most ||
-             // A raster of heights is as even from far away.
-             (!may_be_far_ &&
-              one.cost > NEARER * areaSpread (samples_, farFrom (one.viewpoint), angles));
-    };
-    candidates.erase (std::remove_if (candidates.begin (), candidates.end (), isWorse),
-                      candidates.end ());
+        searchByAreas (samples_, box_, may_be_far_, limits_.areas, run_);
     // Areas can mislead: in a plane, they are the same from many places. Rays tell which is right.
     parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
       const RunContext one = run_.withThreads (1);
@@ -133,22 +91,33 @@ public:
           takeBetter (refine (mirrored (candidate.viewpoint)), found);
         if (!found)
           takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
+        if (!found)
+          takeBetter (refineBy (candidate.viewpoint, AREA_ERROR, Measure::DENSITY), found);
       }
       if (found && isDetermined (*found))
-        return isAsFar (found->viewpoint) ? farFrom (found->viewpoint) : found->viewpoint;
+        return isAsFar (found->viewpoint) ? farFrom (found->viewpoint, box_.center ())
+                                          : found->viewpoint;
     }
     return {};
   }
 
 private:
-  static constexpr double APART = 0.1;  // of two directions whose descents may differ
-  static constexpr double EVEN = 0.02;  // spread of rays that ends the search
-  static constexpr double NEARER = 0.9; // of the spread of areas from far away
+  static constexpr double APART = 0.1; // of two directions whose descents may differ
+  static constexpr double EVEN = 0.02; // spread of rays that ends the search
   // Of the spread of rays from far away. Rasters of heights have 1; scans of one side had up to 0.52,
   // and one of an upright body 0.70 to 0.76.
   static constexpr double FARTHER = 0.75;
   static constexpr double CLOSER = 0.16;     // the step after two rounds
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
+
+  // What is the more even, the nearer a place is to the right one. In a scan from a moving car, where outlines
+  // hide each other, densities lead near the place, and then rays and their rows.
+  enum class Measure
+  {
+    ROWS, // of rays and their rows
+    RAYS,
+    DENSITY // of the rays
+  };
 
   // A viewpoint with enough evidence.
   struct Found
@@ -178,8 +147,8 @@ private:
     if (!found.explains && !place.is_far && looksToAllSides (positions_, place, evidence_))
       return false;
     return found.is_certain ||
-           (!place.is_far &&
-            evidenceAt (place).ray_spread < FARTHER * evidenceAt (farFrom (place)).ray_spread);
+           (!place.is_far && evidenceAt (place).ray_spread <
+                                 FARTHER * evidenceAt (farFrom (place, box_.center ())).ray_spread);
   }
 
   // Whether rays from there are as even as parallel ones: within the cloud, whose diagonal is 1, their
@@ -189,43 +158,8 @@ private:
     return !found.is_far && (found.place - box_.center ()).norm () * EVEN > 1.0;
   }
 
-  // The direction of rays from far beyond a place.
-  Viewpoint farFrom (const Viewpoint& near) const
-  {
-    return {(box_.center () - near.place).normalized (), true};
-  }
-
-  // Areas give a viewpoint to about a hundredth of the bounding box; rays refine it.
-  static constexpr double SMALLEST_AREA_STEP = 4e-3;
-
   // Samples for the plane around a viewpoint: a tenth, as few as a plane needs.
   static constexpr std::size_t AROUND = 50;
-
-  static bool isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
-  {
-    return a.cost < b.cost;
-  }
-
-  // The first candidates without those near an earlier one.
-  static std::vector<RatedViewpoint> keepApart (const std::vector<RatedViewpoint>& candidates,
-                                                double distance, std::size_t most)
-  {
-    std::vector<RatedViewpoint> kept;
-    for (const RatedViewpoint& one : candidates)
-      if (kept.size () < most &&
-          std::none_of (kept.begin (), kept.end (), [&] (const RatedViewpoint& other) {
-            return other.viewpoint.is_far == one.viewpoint.is_far &&
-                   (other.viewpoint.place - one.viewpoint.place).norm () < distance;
-          }))
-        kept.push_back (one);
-    return kept;
-  }
-
-  // Cell size of the grid of viewpoints.
-  double cell () const
-  {
-    return 2.0 * box_.sizes ().maxCoeff () / static_cast<double> (limits_.cells);
-  }
 
   // Mirror image of a viewpoint at the plane of the samples around it. A scanner low above the
   // ground is closer to its image than the precision of a descent by areas.
@@ -248,64 +182,6 @@ private:
     return {viewpoint.place - 2.0 * height * plane.normal, false};
   }
 
-  // Half of the samples, along each axis.
-  Eigen::AlignedBox3d middleBox () const
-  {
-    Eigen::AlignedBox3d box;
-    box.setEmpty ();
-    std::vector<double> values (samples_.size ());
-    for (const double share : {0.25, 0.75}) {
-      Eigen::Vector3d corner;
-      for (int axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < samples_.size (); ++i)
-          values[i] = samples_[i].position[axis];
-        corner[axis] = quantile (values, share);
-      }
-      box.extend (corner);
-    }
-    return box;
-  }
-
-  // The middles of the cells of a grid over twice a box.
-  static void addGrid (const Eigen::AlignedBox3d& box, std::size_t n,
-                       std::vector<RatedViewpoint>& places)
-  {
-    const auto cells = static_cast<double> (n);
-    for (std::size_t i = 0; i < n * n * n; ++i) {
-      const std::size_t column = i / n % n, layer = i / (n * n);
-      const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
-                                 static_cast<double> (layer));
-      const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
-      places.push_back ({0.0, {box.center () + offset.cwiseProduct (box.sizes ()), false}});
-    }
-  }
-
-  // Viewpoints on grids, and far ones, rated by a few areas.
-  std::vector<RatedViewpoint> startingPlaces () const
-  {
-    std::vector<RatedViewpoint> candidates;
-    const auto add = [&candidates] (const Viewpoint& viewpoint) {
-      candidates.push_back ({0.0, viewpoint});
-    };
-    const Eigen::Vector3d size = box_.sizes (), centre = box_.center ();
-    addGrid (box_, limits_.cells, candidates);
-    addGrid (middleBox (), limits_.cells, candidates);
-    // On spheres around the box, the last of infinite radius.
-    for (std::size_t i = 0; i < limits_.directions; ++i) {
-      const Eigen::Vector3d direction = spiralDirection (i, limits_.directions);
-      for (const double distance : {1.5, 3.0, 6.0})
-        add ({centre + distance * size.norm () * direction, false});
-      if (may_be_far_)
-        add ({direction, true});
-    }
-    parallelRanges (run_, candidates.size (), [&] (std::size_t first, std::size_t last) {
-      std::vector<double> angles;
-      for (std::size_t i = first; i < last; ++i)
-        candidates[i].cost = areaSpread (few_samples_, candidates[i].viewpoint, angles);
-    });
-    return candidates;
-  }
-
   bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                    const EvidenceLimits& limits, const EvidenceExcess& excess) const
   {
@@ -321,12 +197,12 @@ private:
   {
     constexpr double CLEARLY = 0.9; // by hand
     std::optional<Found> best;
-    takeBetter (refineBy (start, step, true), best);
+    takeBetter (refineBy (start, step, Measure::ROWS), best);
     if (!best || !best->is_even)
-      takeBetter (refineBy (start, step, false), best);
+      takeBetter (refineBy (start, step, Measure::RAYS), best);
     for (double cost = std::numeric_limits<double>::infinity (); best && best->cost < cost;) {
       cost = CLEARLY * best->cost;
-      takeBetter (refineBy (best->viewpoint, CLOSER * step, true), best);
+      takeBetter (refineBy (best->viewpoint, CLOSER * step, Measure::ROWS), best);
     }
     return best;
   }
@@ -338,32 +214,38 @@ private:
   }
 
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
-  std::optional<Found> refineBy (Viewpoint viewpoint, double step, bool with_rows) const
+  std::optional<Found> refineBy (Viewpoint viewpoint, double step, Measure measure) const
   {
     constexpr std::size_t EARLY = 3; // rounds
-    std::vector<RayPatch> patches;
-    const auto findPatches = [&] (const EvidenceLimits& limits) {
-      return findRayPatches (positions_, viewpoint, limits, run_);
-    };
+    constexpr double LENIENT = 1.5;  // before; real scans have up to 1.1 at the start
+    const bool by_density = measure == Measure::DENSITY;
     for (std::size_t round = 0; round < limits_.rounds; ++round) {
       const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
-      patches = findPatches (limits);
-      if (round == EARLY && isHopeless (patches, viewpoint, limits, limits_.early_from_far))
+      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
+      const auto densities = [&] (const Viewpoint& v) {
+        return findDensityEvidence (positions_, patches, v, evidence_, run_);
+      };
+      const double most = (round < EARLY ? LENIENT : 1.0) * evidence_.density_regularity;
+      if (by_density
+              ? round <= EARLY && densities (viewpoint).left (evidence_) > most
+              : round == EARLY && isHopeless (patches, viewpoint, limits, limits_.early_from_far))
         return {};
       const auto cost = [&] (const Viewpoint& v) {
-        return findRaySpread (positions_, patches, v, with_rows, run_);
+        return by_density && round < EARLY
+                   ? densities (v).ray_spread
+                   : findRaySpread (positions_, patches, v, measure != Measure::RAYS, run_);
       };
       viewpoint =
           patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
               .viewpoint;
       step *= 0.4;
-      if (isHopeless (patches, viewpoint, limits,
-                      round >= EARLY     ? limits_.late
-                      : viewpoint.is_far ? limits_.early_from_far
-                                         : limits_.early))
+      if (!by_density && isHopeless (patches, viewpoint, limits,
+                                     round >= EARLY     ? limits_.late
+                                     : viewpoint.is_far ? limits_.early_from_far
+                                                        : limits_.early))
         return {};
     }
-    patches = findPatches (evidence_);
+    const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
     const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     const bool is_sure = isSeenFromThere (rays, evidence_);
     // Along a far direction, nothing is beside.
@@ -384,7 +266,6 @@ private:
   EvidenceLimits lenient_; // with evidence of its own, see isDetermined ()
   RunContext run_;
   const std::vector<AreaSample>& samples_;
-  std::vector<AreaSample> few_samples_; // to compare many viewpoints
   Eigen::AlignedBox3d box_;
   bool may_be_far_;
 };

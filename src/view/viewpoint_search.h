@@ -5,7 +5,7 @@
 
 #include "points/neighbors.h"
 #include "points/points.h"
-#include "view/area_samples.h"
+#include "view/area_search.h"
 
 #include <optional>
 #include <vector>
@@ -27,23 +27,11 @@ struct SearchLimits
                      ///< scanned along lines. Random points have 0.25, a square raster 0.33
   std::size_t row_directions = 180; ///< tested for such a cloud: one degree apart
   std::size_t by_rows = 4;          ///< best directions, which are refined
-  double explained = 0.8; ///< largest share of that spread left at the best viewpoint; with more,
-                          ///< areas do not come from a view. In scans with noise of 3 spacings,
-                          ///< 0.7 is left
-
+  AreaSearchLimits areas;
   double density_regularity = 1.0 / 3.0; ///< of EvidenceLimits, for a place that is not told but
                                          ///< searched. Right ones have up to 0.31, wrong ones 0.38
                                          ///< and more
-  double as_good = 0.75; ///< share of what the best viewpoint explains; those that explain more are
-                         ///< compared by their rays: on a plane, many explain as much
-  std::size_t samples = 500; ///< sampled areas; the error of the spread of so many is 6 %
-  std::size_t cells =
-      12; ///< along each axis of a grid of viewpoints over twice the bounding box, and
-          ///< of one over twice the box of half of the samples: points are dense
-          ///< around a sensor low above wide ground
-  std::size_t directions = 100;       ///< of farther viewpoints: 20 degrees apart
-  std::size_t starts = 24;            ///< best viewpoints by areas, from which descents start
-  std::size_t area_evaluations = 200; ///< in each descent by areas
+  std::size_t samples = 500;       ///< sampled areas; the error of the spread of so many is 6 %
   std::size_t by_rays = 3;         ///< best of these by rays, which are refined until one is right
   std::size_t rounds = 7;          ///< of a refinement, each with new patches. With 9, as many of
                                    ///< 278 generated scans were recognised, and none was better
