@@ -289,12 +289,13 @@ knownViewpoint (const Points& points, const Request& request)
   const Viewpoint viewpoint{
       points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
   const EvidenceLimits& evidence = request.limits.view.evidence;
-  if (is_given || isSeenFrom (points, viewpoint, evidence, request.run))
-    return viewpoint;
-  if (isSensorKnown (request.sensor_origin) &&
-      mayBeSeenFrom (points.positions, viewpoint, evidence, request.run))
-    return Viewpoint{viewpoint.place, false, true};
-  return {};
+  const Sight sight = is_given
+                          ? Sight::CERTAIN
+                          : sightFrom (points, viewpoint, isSensorKnown (request.sensor_origin),
+                                       evidence, request.run);
+  if (sight == Sight::NO)
+    return {};
+  return Viewpoint{viewpoint.place, false, sight == Sight::POSSIBLE};
 }
 
 // If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
@@ -309,7 +310,7 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   const SearchLimits& search = request.limits.view.search;
   const EvidenceLimits& evidence = request.limits.view.evidence;
   const auto isSeen = [&] (const Viewpoint& viewpoint) {
-    return isSeenFrom (points, viewpoint, evidence, run);
+    return sightFrom (points, viewpoint, false, evidence, run) == Sight::CERTAIN;
   };
   if (isSeen (given))
     return {};

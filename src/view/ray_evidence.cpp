@@ -281,27 +281,32 @@ densitiesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patc
   for (const Index p : patch)
     rays.push_back (rayTo (positions[p], viewpoint));
   std::vector<RayDensity> found;
-  std::vector<std::pair<double, std::size_t>> near;
-  std::vector<double> squares;
+  std::vector<double> to_rays, to_points; // squared distances
+  const auto ofRank = [&limits] (std::vector<double>& squares) {
+    const auto at = squares.begin () + static_cast<std::ptrdiff_t> (limits.density_rank) - 1;
+    std::nth_element (squares.begin (), at, squares.end ());
+    return std::sqrt (*at);
+  };
   for (std::size_t i = 0; i < patch.size () / 2 && limits.density_rank + 1 < patch.size (); ++i) {
-    near.clear ();
-    squares.clear ();
+    to_rays.clear ();
+    to_points.clear ();
+    double first = std::numeric_limits<double>::infinity (), second = first;
+    const Ray &ray = rays[i], *nearest = &ray;
     for (std::size_t k = 0; k < patch.size (); ++k)
       if (k != i) {
-        near.emplace_back ((rays[k].direction - rays[i].direction).squaredNorm (), k);
-        squares.push_back ((positions[patch[k]] - positions[patch[i]]).squaredNorm ());
+        const double square = (rays[k].direction - ray.direction).squaredNorm ();
+        if (square < first)
+          nearest = &rays[k];
+        second = std::min (second, std::max (square, first));
+        first = std::min (square, first);
+        to_rays.push_back (square);
+        to_points.push_back ((positions[patch[k]] - positions[patch[i]]).squaredNorm ());
       }
-    const auto rank = static_cast<std::ptrdiff_t> (limits.density_rank);
-    std::partial_sort (near.begin (), near.begin () + rank, near.end ());
-    std::nth_element (squares.begin (), squares.begin () + rank - 1, squares.end ());
-    const Ray &ray = rays[i], &nearest = rays[near.front ().second];
-    const double second = std::sqrt (near[1].first);
-    const double width = second * ray.depth;
-    const bool is_near = std::sqrt (near.front ().first) < limits.near_ratio * second;
+    const double width = std::sqrt (second) * ray.depth;
+    const bool is_near = std::sqrt (first) < limits.near_ratio * std::sqrt (second);
     found.push_back (
-        {ray.depth, std::sqrt (near[limits.density_rank - 1].first),
-         std::sqrt (squares[limits.density_rank - 1]), is_near,
-         is_near && std::abs (nearest.depth - ray.depth) > limits.hidden_slope * width});
+        {ray.depth, ofRank (to_rays), ofRank (to_points), is_near,
+         is_near && std::abs (nearest->depth - ray.depth) > limits.hidden_slope * width});
   }
   return found;
 }
@@ -342,11 +347,9 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
 }
 
 bool
-explainsDensity (const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run)
+explainsDensity (const std::vector<Eigen::Vector3d>& positions, const DensityEvidence& found,
+                 const Viewpoint& viewpoint, const EvidenceLimits& limits, const RunContext& run)
 {
-  const DensityEvidence found = findDensityEvidence (positions, patches, viewpoint, limits, run);
   const double left = found.left (limits);
   if (!(found.point_spread >= limits.least_density_spread && left <= limits.density_regularity &&
         found.near_share <= limits.crossing_share))
@@ -367,16 +370,6 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions,
       if (spreadAt ({viewpoint.place + aside * Eigen::Vector3d::Unit (axis), false}) < least)
         return false;
   return true;
-}
-
-bool
-mayBeSeenFrom (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-               const EvidenceLimits& limits, const RunContext& run)
-{
-  return !looksToAllSides (positions, viewpoint, limits) &&
-         findDensityEvidence (positions, findRayPatches (positions, viewpoint, limits, run),
-                              viewpoint, limits, run)
-                 .hidden_share <= limits.hidden_if_told;
 }
 
 bool

@@ -137,19 +137,11 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
 /// Whether the viewpoint explains the density of the points: that of their rays is the same
 /// everywhere, unlike that of the points; and hardly any point hides others, or the density is
 /// less even from all places beside. Also for rays that are locally uneven, such as rings with lost
-/// points. O(n log n + patches * points of a patch squared).
-/// \param viewpoint not far away
-/// \param patches found at the viewpoint
+/// points. O(1) for most places that do not; else O(n log n).
+/// \param found at the viewpoint, which is not far away
 bool
-explainsDensity (const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run);
-
-/// Whether points may be one scan from a place that is told, since hardly any hides others; weaker
-/// than explainsDensity. Same cost.
-bool
-mayBeSeenFrom (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-               const EvidenceLimits& limits, const RunContext& run);
+explainsDensity (const std::vector<Eigen::Vector3d>& positions, const DensityEvidence& found,
+                 const Viewpoint& viewpoint, const EvidenceLimits& limits, const RunContext& run);
 
 /// Whether there are rays in all directions.
 bool

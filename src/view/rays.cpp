@@ -23,8 +23,10 @@ emptyDirection (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& 
     directions.push_back (rayTo (positions[p], viewpoint).direction);
   Eigen::Vector3d best = Eigen::Vector3d::UnitZ ();
   cosine = std::numeric_limits<double>::infinity ();
+  // In an order without neighbours in a row, of which each may be a little better than the one before.
+  constexpr std::size_t STRIDE = 1237;
   for (std::size_t k = 0; k < tries; ++k) {
-    const Eigen::Vector3d tried = spiralDirection (k, tries);
+    const Eigen::Vector3d tried = spiralDirection (k * STRIDE % tries, tries);
     double nearest = -1.0;
     for (std::size_t i = 0; i < directions.size () && nearest < cosine; ++i)
       nearest = std::max (nearest, tried.dot (directions[i]));

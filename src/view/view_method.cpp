@@ -105,20 +105,27 @@ faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
 
 } // namespace
 
-bool
-isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
-            const RunContext& run)
+Sight
+sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
+           const EvidenceLimits& limits, const RunContext& run)
 {
-  if (points.size () < limits.fewest_patches * limits.patch_points ||
-      looksToAllSides (points.positions, viewpoint, limits))
-    return false;
-  constexpr double AT_SENSOR =
-      2.0; // times as many: explainsDensity () leaves out points at the sensor
-  const std::vector<RayPatch> patches = findRayPatches (points.positions, viewpoint, limits, run);
-  const RayEvidence evidence = findRayEvidence (points.positions, patches, viewpoint, limits, run);
-  return isSeenFromThere (evidence, limits) ||
-         (evidence.nearShare () <= AT_SENSOR * limits.crossing_share &&
-          explainsDensity (points.positions, patches, viewpoint, limits, run));
+  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const bool are_enough = positions.size () >= limits.fewest_patches * limits.patch_points;
+  if ((!are_enough && !is_told) || looksToAllSides (positions, viewpoint, limits))
+    return Sight::NO;
+  const std::vector<RayPatch> patches = findRayPatches (positions, viewpoint, limits, run);
+  const RayEvidence rays = findRayEvidence (positions, patches, viewpoint, limits, run);
+  if (are_enough && isSeenFromThere (rays, limits))
+    return Sight::CERTAIN;
+  constexpr double AT_SENSOR = 2.0; // times as many: densities are without points at the sensor
+  const bool may_be = are_enough && rays.nearShare () <= AT_SENSOR * limits.crossing_share;
+  if (!may_be && !is_told)
+    return Sight::NO;
+  const DensityEvidence densities =
+      findDensityEvidence (positions, patches, viewpoint, limits, run);
+  if (may_be && explainsDensity (positions, densities, viewpoint, limits, run))
+    return Sight::CERTAIN;
+  return is_told && densities.hidden_share <= limits.hidden_if_told ? Sight::POSSIBLE : Sight::NO;
 }
 
 ViewSurface

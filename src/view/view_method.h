@@ -49,11 +49,19 @@ struct ViewSettings
   const SurfaceLimits& surface; ///< for policies of holes other than AUTO, and closed components
 };
 
-/// Whether the cloud was seen from a viewpoint (see RayEvidence). Stops early if it clearly was
-/// not. O(n), 0.1 microseconds per point if it was.
-bool
-isSeenFrom (const Points& points, const Viewpoint& viewpoint, const EvidenceLimits& limits,
-            const RunContext& run);
+/// Whether a cloud was seen from a place.
+enum class Sight
+{
+  NO,
+  POSSIBLE, ///< hardly any point hides others
+  CERTAIN   ///< see RayEvidence and explainsDensity
+};
+
+/// O(n log n), 0.1 microseconds per point if it was.
+/// \param is_told the place is that of a sensor; else the result is never POSSIBLE
+Sight
+sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
+           const EvidenceLimits& limits, const RunContext& run);
 
 /// The surface of one scan.
 struct ViewSurface

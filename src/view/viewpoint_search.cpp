@@ -249,8 +249,11 @@ private:
     const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
     const bool is_sure = isSeenFromThere (rays, evidence_);
     // Along a far direction, nothing is beside.
-    const bool explains = !is_sure && !viewpoint.is_far &&
-                          explainsDensity (positions_, patches, viewpoint, evidence_, run_);
+    const bool explains =
+        !is_sure && !viewpoint.is_far &&
+        explainsDensity (positions_,
+                         findDensityEvidence (positions_, patches, viewpoint, evidence_, run_),
+                         viewpoint, evidence_, run_);
     const bool is_even = is_sure || (!viewpoint.is_far && isSeenFromThere (rays, lenient_));
     if (!is_even && !explains)
       return {};
