@@ -70,7 +70,8 @@ public:
     return best && best->is_certain ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
   }
 
-  std::optional<Viewpoint> find () const
+  // \param in_rows points lie in rows, as those of a spinning lidar
+  std::optional<Viewpoint> find (bool in_rows) const
   {
     std::vector<RatedViewpoint> candidates =
         searchByAreas (samples_, box_, may_be_far_, limits_.areas, run_);
@@ -91,7 +92,7 @@ public:
           takeBetter (refine (mirrored (candidate.viewpoint)), found);
         if (!found)
           takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
-        if (!found)
+        if (!found && in_rows)
           takeBetter (refineBy (candidate.viewpoint, AREA_ERROR, Measure::DENSITY), found);
       }
       if (found && isDetermined (*found))
@@ -287,17 +288,17 @@ findViewpoint (const Points& points, const RowOf& row_of, const std::vector<Area
     return {};
   const bool for_uneven = reason == SearchReason::UNEVEN;
   const ViewpointSearch search (points, row_of, samples, limits, filled, for_uneven, run);
-  if (for_uneven) {
-    const RowEvidence rows = findRows (points, row_of, limits.samples);
-    if (rows.share > limits.rows && !rows.are_straight)
-      if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
-        return found;
-  }
+  RowEvidence rows;
+  if (for_uneven)
+    rows = findRows (points, row_of, limits.samples);
+  if (rows.share > limits.rows && !rows.are_straight)
+    if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
+      return found;
   constexpr std::size_t LEAST_SHARE = 4; // a quarter of the patches
   if (LEAST_SHARE * filled.patches < evidence.patches || samples.size () < limits.samples / 2 ||
       (spreadOfAreas (samples) > limits.even) != for_uneven)
     return {};
-  return search.find ();
+  return search.find (rows.share > limits.rings);
 }
 
 } // namespace pcl::floater
