@@ -62,7 +62,7 @@ struct EvidenceLimits
       0.2; ///< ... unless their spread is below this at the viewpoint, and little is
            ///< hidden. A quarter of the depth nearer to the right place, generated
            ///< scans have a factor of 0.4 to 0.77; around the right place, 0.89 and
-           ///< more; around that of 48 scans from a moving car, 1.2 to 1.9.
+           ///< more; around that of 40 scans from a car, 1.2 and more.
            ///< Around one of several lidars whose scans are merged, 0.73 to 1.0
   std::size_t patches_beside = 32; ///< for this comparison
   double all_sides =
