@@ -27,7 +27,7 @@ struct SearchLimits
                      ///< scanned along lines. Random points have 0.25, a square raster 0.33
   double rings =
       0.4; ///< the same of a spinning lidar, for a search by the density of its rays: graded
-           ///< sheets are as even from some place. 32 moved scans of cars have 0.47 and
+           ///< sheets are as even from some place. 15 scans of cars have 0.47 and
            ///< more, such sheets of random points up to 0.25
   std::size_t row_directions = 180; ///< tested for such a cloud: one degree apart
   std::size_t by_rows = 4;          ///< best directions, which are refined
