@@ -40,13 +40,6 @@ keepApart (const std::vector<RatedViewpoint>& candidates, double distance, std::
   return kept;
 }
 
-/// The direction of rays from far beyond a place.
-inline Viewpoint
-farFrom (const Viewpoint& near, const Eigen::Vector3d& middle)
-{
-  return {(middle - near.place).normalized (), true};
-}
-
 /// Pattern search (Hooke and Jeeves 1961): moves a viewpoint along the axes, or rotates the direction
 /// of a far one; repeats moves that lowered the cost, and otherwise halves the step, until it is below
 /// the smallest one, or all evaluations of the cost are used. Steps are relative to the distance from

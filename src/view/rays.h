@@ -20,6 +20,13 @@ struct Viewpoint
   bool is_only_told = false; ///< by the file; the points do not tell
 };
 
+/// The direction of rays from far beyond a place.
+inline Viewpoint
+farFrom (const Viewpoint& near, const Eigen::Vector3d& middle)
+{
+  return {(middle - near.place).normalized (), true};
+}
+
 /// The ray from a viewpoint to a point.
 struct Ray
 {

@@ -3,8 +3,9 @@
 #include "view/viewpoint_search.h"
 
 #include "core/geometry.h"
-#include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "view/pattern_search.h"
+#include "view/ray_evidence.h"
 #include "view/row_evidence.h"
 
 #include <Eigen/Geometry>
@@ -111,8 +112,8 @@ private:
   static constexpr double CLOSER = 0.16;     // the step after two rounds
   static constexpr double AREA_ERROR = 0.05; // of a viewpoint, in bounding boxes
 
-  // What is the more even, the nearer a place is to the right one. In a scan from a moving car, where outlines
-  // hide each other, densities lead near the place, and then rays and their rows.
+  // What a descent makes even. In a scan from a moving car, outlines hide each other: the density of the
+  // rays leads near the place, and then rays and rows give it.
   enum class Measure
   {
     ROWS, // of rays and their rows

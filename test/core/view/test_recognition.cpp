@@ -112,7 +112,7 @@ TEST (Recognition, ASensorInTheOriginIsToldFromOneBesideIt)
 }
 
 // While the lidar turns, the car drives: rays to the sides of a post cross, and one of two near rays ends far
-// behind the other one. Where the car is not in the origin, the densities of the rays lead there.
+// behind the other one.
 TEST (Recognition, AScanFromADrivingCarIsRecognised)
 {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero (), beside (0.3, 1.0, -0.2);
