@@ -3,6 +3,7 @@
 #include "mesh/neck_cutting.h"
 
 #include "core/geometry.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/insertion.h"
 #include "mesh/neck_loops.h"
@@ -18,7 +19,8 @@
 
 namespace pcl::floater {
 namespace {
-constexpr int RINGS = 3; // around a loop: two that go or are changed by flips, and one that stays
+// Around a loop: two that go or are changed by flips, and one that stays.
+constexpr std::size_t RINGS = 3;
 
 // Triangles of a mesh that go, and those that come.
 struct Replacement
@@ -38,7 +40,7 @@ public:
       : mesh_ (mesh), limits_ (limits), run_ (run), points_ (loop),
         cost_ (positions_, normals_, &spacing_, limits.cost)
   {
-    for (int ring = 0; ring < RINGS; ++ring)
+    for (std::size_t ring = 0; ring < RINGS; ++ring)
       addRing (mesh, points_);
     is_on_loop_.assign (points_.size (), 0);
     is_rim_.assign (points_.size (), 0);
@@ -249,12 +251,14 @@ private:
 
 std::size_t
 cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const LocalGeometry& geometry, const NeckLimits& limits, const RunContext& run)
+          const LocalGeometry& geometry, std::vector<std::uint8_t> is_skipped,
+          const NeckLimits& limits, const RunContext& run)
 {
   std::size_t cuts = 0;
+  is_skipped.resize (positions.size (), 0);
   while (true) {
     const std::vector<std::vector<Index>> loops =
-        findNeckLoops (mesh, positions, limits.longest_loop, run);
+        findNeckLoops (mesh, positions, is_skipped, limits.longest_loop, run);
     std::vector<Replacement> made (loops.size ());
     parallelTasks (run, loops.size (), [&] (std::size_t i) {
       made[i] = NeckCut (mesh, loops[i], positions, geometry, limits, run.withThreads (1)).cut ();
@@ -264,12 +268,15 @@ cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     });
     std::vector<std::uint8_t> is_gone (loops.empty () ? 0 : mesh.triangles.size (), 0);
     TriangleMesh changed;
+    std::vector<Index> again; // points around the cuts: elsewhere, no loop is cut in the next round
     for (const Replacement& cut : made) {
       if (cut.gone.empty () || std::any_of (cut.gone.begin (), cut.gone.end (),
                                             [&] (Index t) { return is_gone[t] != 0; }))
         continue;
-      for (const Index t : cut.gone)
+      for (const Index t : cut.gone) {
         is_gone[t] = 1;
+        again.insert (again.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+      }
       changed.triangles.insert (changed.triangles.end (), cut.triangles.begin (),
                                 cut.triangles.end ());
       ++cuts;
@@ -282,6 +289,13 @@ cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     if (!changed.connect (positions.size (), run))
       throw std::logic_error ("a neck was cut so that the mesh does not fit");
     mesh = std::move (changed);
+    sortUnique (again);
+    for (std::size_t ring = 0; ring < RINGS + limits.longest_loop / 2; ++ring)
+      addRing (mesh, again);
+    std::vector<std::uint8_t> is_far (positions.size (), 1);
+    for (const Index p : again)
+      is_far[p] = is_skipped[p];
+    is_skipped = std::move (is_far);
   }
 }
 

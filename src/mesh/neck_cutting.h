@@ -29,10 +29,12 @@ struct NeckLimits
 /// cuts that overlap, the one that leaves the least share. A neck between sheets that only come close
 /// bends twice by a right angle; across a true one, the fillings would. A cut takes a handle away, or
 /// parts a component in two. O(n), plus about a millisecond for a loop.
-/// \param geometry normals oriented like the mesh (see orientNormals)
+/// \param geometry   normals oriented like the mesh (see orientNormals)
+/// \param is_skipped of each point: none is looked for from there; empty: from all
 /// \return number of necks that were cut
 std::size_t
 cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const LocalGeometry& geometry, const NeckLimits& limits, const RunContext& run);
+          const LocalGeometry& geometry, std::vector<std::uint8_t> is_skipped,
+          const NeckLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -290,7 +290,8 @@ putInOrder (std::vector<Index>& loop)
 
 std::vector<std::vector<Index>>
 findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::size_t longest, const RunContext& run)
+               const std::vector<std::uint8_t>& is_skipped, std::size_t longest,
+               const RunContext& run)
 {
   std::vector<std::vector<Index>> found;
   const std::vector<Index> starts = pointsOfBentEdges (mesh, positions, run);
@@ -300,7 +301,8 @@ findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   for (const MeshEdge e : boundaryEdges (mesh))
     is_boundary[mesh.from (e)] = is_boundary[mesh.to (e)] = 1;
   NeckFinder finder (mesh, is_boundary, longest);
-  std::vector<std::uint8_t> is_searched (positions.size (), 0);
+  std::vector<std::uint8_t> is_searched = is_skipped;
+  is_searched.resize (positions.size (), 0);
   ProgressLoop progress (run, starts.size ());
   for (const Index p : starts) {
     progress.next ();

@@ -15,9 +15,11 @@ namespace pcl::floater {
 /// the triangles beyond are in two parts, neither of them smaller than a sphere that such a loop
 /// goes around. A short loop between these parts is taken. None is looked for beside the boundary.
 /// O(n), plus some microseconds for each bent edge.
+/// \param is_skipped of each point: no loop is looked for from there; empty: from all
 /// \return the points of each loop, in order; the shortest loops first
 std::vector<std::vector<Index>>
 findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::size_t longest, const RunContext& run);
+               const std::vector<std::uint8_t>& is_skipped, std::size_t longest,
+               const RunContext& run);
 
 } // namespace pcl::floater

@@ -360,6 +360,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     remade.failed.resize (positions.size (), 0);
+    remade.is_noisy.resize (positions.size (), 0);
     std::vector<std::uint8_t> is_tried (made.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
       is_tried[zone] = hasFailed (zones.points.row (zone), remade.failed) ? 0 : 1;
@@ -372,8 +373,10 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     for (std::size_t zone = 0; zone < made.size (); ++zone)
       noisy_points += is_noise[zone] != 0 ? zones.points.row (zone).size () : 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone)
-      for (const Index p : is_tried[zone] != 0 ? zones.points.row (zone) : Row{})
+      for (const Index p : is_tried[zone] != 0 ? zones.points.row (zone) : Row{}) {
         remade.failed[p] = made[zone] ? 0 : zones.points.row (zone).size ();
+        remade.is_noisy[p] = is_noise[zone];
+      }
     if (4 * noisy_points > positions.size ()) {
       remade.is_noise = true;
       return;

@@ -141,6 +141,7 @@ TEST (Remaking, MakesALargeZoneAnewUnlessItIsNoise)
     const std::vector<Triangle> before = spheres.mesh.triangles;
     const RemadeZones remade = spheres.remake ();
     EXPECT_EQ (remade.is_noise, is_noisy);
+    EXPECT_EQ (std::count (remade.is_noisy.begin (), remade.is_noisy.end (), 1) > 5000, is_noisy);
     EXPECT_EQ (remade.points () > 5900, !is_noisy);
     EXPECT_EQ (spheres.mesh.triangles == before, is_noisy);
     EXPECT_EQ (spheres.crossing ().empty (), !is_noisy);
@@ -213,7 +214,7 @@ shortestLoop (const Mesh& mesh, std::size_t longest)
 {
   const TriangleMesh connected = samples::connected (mesh);
   const std::vector<std::vector<Index>> loops =
-      findNeckLoops (connected, mesh.positions, longest, 1);
+      findNeckLoops (connected, mesh.positions, {}, longest, 1);
   for (const std::vector<Index>& loop : loops)
     for (std::size_t i = 0; i < loop.size (); ++i)
       EXPECT_TRUE (connected.hasEdge (loop[i], loop[(i + 1) % loop.size ()]));
@@ -283,11 +284,23 @@ TEST (NeckCutting, CutsBridgesBetweenSheets)
   for (const std::vector<std::size_t>& places :
        {std::vector<std::size_t>{}, {180}, {95, 290}, {95, 290, 121, 268}}) {
     TwoSheets sheets = joinedSheets (places);
-    EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), {}, 1),
+    EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), {}, {}, 1),
                places.size ());
     expectConsistent (sheets.mesh);
     expectTopology (sheets.mesh.triangles, sheets.positions.size (), 2, 2, 2);
   }
+}
+
+// A bridge at skipped points stays.
+TEST (NeckCutting, LeavesOutWhatIsSkipped)
+{
+  TwoSheets sheets = joinedSheets ({95, 290});
+  std::vector<std::uint8_t> is_skipped (sheets.positions.size (), 0);
+  const Eigen::Vector3d bridge = sheets.positions[sheet (14).triangles[290][0]];
+  for (Index p = 0; p < is_skipped.size (); ++p)
+    is_skipped[p] = (sheets.positions[p] - bridge).norm () < 0.3 ? 1 : 0;
+  EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, {}, 1), 1U);
+  expectTopology (sheets.mesh.triangles, sheets.positions.size (), 1, 0, 2);
 }
 
 TEST (NeckCutting, KeepsThinTubes)
@@ -302,7 +315,7 @@ TEST (NeckCutting, KeepsThinTubes)
       sheets.normals.push_back ((p - middle).normalized ().cast<float> ());
     }
     EXPECT_EQ (
-        cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, 1),
+        cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, {}, 1),
         0U);
     expectSame (sheets.mesh, connected (torus));
   }
