@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "mesh/folds.h"
 #include "mesh/two_sides.h"
 #include "mesh/vertex_stars.h"
@@ -31,6 +32,11 @@ public:
                 const std::vector<std::uint8_t>& is_turned, const RunContext& run)
       : place_ (place)
   {
+    for (std::size_t p = 0; p < place.positions.size (); ++p)
+      is_inside_.push_back (place.is_free[p] | place.is_rim[p]);
+    for (const Triangle& t : others)
+      for (const Index p : t)
+        is_inside_[p] = 1;
     mesh_.triangles = others;
     for (std::size_t i = 0; i < place.frame.size (); ++i)
       mesh_.triangles.push_back (
@@ -118,10 +124,11 @@ public:
   }
 
 private:
-  bool isInside (std::size_t p) const { return place_.is_free[p] != 0 || place_.is_rim[p] != 0; }
+  bool isInside (std::size_t p) const { return is_inside_[p] != 0; }
 
   const Place& place_;
   TriangleMesh mesh_;
+  std::vector<std::uint8_t> is_inside_;  // of each point: free, on the rim, or in other triangles
   std::vector<std::uint8_t> is_outside_; // of each point: some of its triangles may be missing
   bool is_manifold_ = false;
 };

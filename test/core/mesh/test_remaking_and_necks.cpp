@@ -7,6 +7,7 @@
 #include "mesh/known_meshes.h"
 #include "mesh/neck_cutting.h"
 #include "mesh/neck_loops.h"
+#include "mesh/piece_in_place.h"
 #include "mesh/two_sides.h"
 #include "mesh_oracle.h"
 
@@ -62,6 +63,32 @@ TEST (TwoSides, PiecesAroundAPointAreMendedOrThePointIsLeftOut)
     mended += made.flawed > 0 && topology.vertices == 300 ? 1 : 0;
   }
   EXPECT_GE (mended, 9U);
+}
+
+// A new triangle may reach a point of the frame that no old one had.
+TEST (Remaking, FindsWhatDoesNotFitBeyondTheRim)
+{
+  const Mesh flat = sheet (6);
+  const Index middle = 24, beside = 25, beyond = 26;
+  Place place = placeOf (flat.positions);
+  place.is_free.assign (flat.positions.size (), 0);
+  place.is_free[middle] = 1;
+  place.is_whole.assign (flat.positions.size (), 1);
+  Triangles others;
+  for (const Triangle& t : flat.triangles)
+    if (std::count (t.begin (), t.end (), middle) > 0) {
+      others.push_back (t);
+      for (const Index p : t)
+        place.is_rim[p] = p != middle ? 1 : 0;
+    }
+    else
+      place.frame.push_back (t);
+  place.patch_of.assign (place.frame.size (), 0);
+  place.patches = 1;
+  EXPECT_TRUE (PieceInPlace (place, others, {}, 1).misfits (1).empty ());
+  others.push_back ({middle, beside, beyond});
+  EXPECT_EQ (PieceInPlace (place, others, {}, 1).misfits (1),
+             (std::vector<Index>{middle, beside, beyond}));
 }
 
 // The meshes of two spheres beside each other, as one.
