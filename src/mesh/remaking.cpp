@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -55,9 +56,10 @@ public:
   }
 
   // A zone grows by the points at which its new triangles do not fit to the others.
+  // \param is_whole all points are in it
   // \param is_noise out: whether the zone is noise
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise) const
+  std::optional<NewZone> remake (Row zone, bool is_whole, std::uint8_t& is_noise) const
   {
     is_noise = 1;
     if (looksNoisy (zone))
@@ -76,7 +78,7 @@ public:
       const PieceInPlace after (at.place, made.triangles, made.is_turned, run_);
       const std::vector<Index> misfits = after.misfits (run_);
       if (misfits.empty ()) {
-        if (!isBetter (after, PieceInPlace (at.place, at.old, {}, run_)))
+        if (!isBetter (after, PieceInPlace (at.place, at.old, {}, run_), is_whole))
           return std::nullopt;
         return newZone (std::move (free), at, made);
       }
@@ -112,10 +114,13 @@ private:
     return TRIED_SHARE * flawed > tried;
   }
 
-  bool isBetter (const PieceInPlace& after, const PieceInPlace& before) const
+  bool isBetter (const PieceInPlace& after, const PieceInPlace& before, bool is_whole) const
   {
-    return after.isManifold () && after.twiceHandles () <= before.twiceHandles () &&
-           static_cast<double> (after.faults (run_)) <=
+    const double handles =
+        0.5 * static_cast<double> (after.twiceHandles () - before.twiceHandles ());
+    return after.isManifold () && (handles <= 0.0 || is_whole) &&
+           static_cast<double> (after.faults (run_)) +
+                   limits_.handle_faults * std::max (handles, 0.0) <=
                limits_.faults_left * static_cast<double> (before.faults (run_));
   }
 
@@ -338,6 +343,19 @@ hasFailed (Row zone, const std::vector<std::size_t>& failed)
   });
 }
 
+// All points as one zone.
+DisturbedZones
+zoneOfAll (std::size_t points)
+{
+  DisturbedZones all;
+  all.points.offsets = {0, static_cast<Index> (points)};
+  all.points.ids.resize (points);
+  std::iota (all.points.ids.begin (), all.points.ids.end (), Index{0});
+  all.is_free.assign (points, 1);
+  all.is_boundary.assign (points, 0);
+  return all;
+}
+
 } // namespace
 
 void
@@ -347,40 +365,44 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
-  for (bool whole_loops = true; rings > 0;) {
-    const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                                                     rings, whole_loops, limits.disturbance, run);
+  const int last = remade.failed.empty () ? 0 : 1; // 0: all points
+  for (bool whole_loops = true; rings >= last;) {
+    const bool is_whole = rings == 0;
+    DisturbedZones zones =
+        findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
+                            is_whole ? widest : rings, whole_loops, limits.disturbance, run);
+    if (is_whole && 2 * zones.points.ids.size () <= positions.size ())
+      return;
+    if (is_whole)
+      zones = zoneOfAll (positions.size ());
     if (!whole_loops || !zones.may_be_parts)
       --rings;
     whole_loops = false;
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
-    std::vector<std::uint8_t> is_noise (made.size (), 0);
+    std::vector<std::uint8_t> is_noise (made.size (), 0), is_tried = is_noise;
     if (made.empty ())
       return;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
     remade.failed.resize (positions.size (), 0);
     remade.is_noisy.resize (positions.size (), 0);
-    std::vector<std::uint8_t> is_tried (made.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      is_tried[zone] = hasFailed (zones.points.row (zone), remade.failed) ? 0 : 1;
+      is_tried[zone] = is_whole || !hasFailed (zones.points.row (zone), remade.failed) ? 1 : 0;
       if (is_tried[zone] != 0)
-        made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);
+        made[zone] = remaker.remake (zones.points.row (zone), is_whole, is_noise[zone]);
     });
     TriangleMesh spliced;
     spliced.triangles = ZoneSplicing (mesh, made).splice ();
     std::size_t noisy_points = 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone)
-      noisy_points += is_noise[zone] != 0 ? zones.points.row (zone).size () : 0;
-    for (std::size_t zone = 0; zone < made.size (); ++zone)
       for (const Index p : is_tried[zone] != 0 ? zones.points.row (zone) : Row{}) {
         remade.failed[p] = made[zone] ? 0 : zones.points.row (zone).size ();
         remade.is_noisy[p] = is_noise[zone];
+        noisy_points += is_noise[zone];
       }
-    if (4 * noisy_points > positions.size ()) {
-      remade.is_noise = true;
+    remade.is_noise = 4 * noisy_points > positions.size ();
+    if (remade.is_noise)
       return;
-    }
     if (std::count (made.begin (), made.end (), std::nullopt) ==
             static_cast<std::ptrdiff_t> (made.size ()) ||
         !spliced.connect (positions.size (), run))
