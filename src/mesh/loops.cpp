@@ -321,8 +321,8 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops, const OpenLoopLimits& li
 {
   std::vector<std::pair<double, BoundaryLoop*>> by_width;
   for (BoundaryLoop* loop : loops)
-    if (loop->width > 0.0 && loop->spacing > 0.0)
-      by_width.emplace_back (std::log (loop->width / loop->spacing), loop);
+    if (loop->width > 0.0)
+      by_width.emplace_back (std::log (loop->width), loop);
   std::stable_sort (by_width.begin (), by_width.end (),
                     [] (const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<double> sums{0.0};

@@ -185,15 +185,15 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
 }
 
-// Loops of these widths, in spacings of 0.5, and log odds.
+// Loops of these widths and log odds. Their spacings differ, which does not matter.
 std::vector<double>
 oddsTogether (const std::vector<std::pair<double, double>>& loops)
 {
   std::vector<BoundaryLoop> all (loops.size ());
   std::vector<BoundaryLoop*> judged;
   for (std::size_t i = 0; i < loops.size (); ++i) {
-    all[i].width = 0.5 * loops[i].first;
-    all[i].spacing = 0.5;
+    all[i].width = loops[i].first;
+    all[i].spacing = 1.0 + static_cast<double> (i);
     all[i].judgement.log_odds = loops[i].second;
     judged.push_back (&all[i]);
   }
