@@ -335,9 +335,11 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops, const OpenLoopLimits& li
       ++first;
     while (last < by_width.size () && by_width[last].first <= width + limits.alike)
       ++last;
-    if (std::abs (loop->judgement.log_odds) < limits.certain)
-      loop->judgement.log_odds =
-          (sums[last] - sums[first]) / std::sqrt (static_cast<double> (last - first));
+    double& own = loop->judgement.log_odds;
+    const double together =
+        (sums[last] - sums[first]) / std::sqrt (static_cast<double> (last - first));
+    if (std::abs (own) < limits.certain || (own < 0.0 && together > limits.certain))
+      own = together;
   }
 }
 

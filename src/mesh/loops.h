@@ -109,7 +109,7 @@ struct OpenLoopLimits
   double alike = 0.2;    ///< difference of the logarithms of the widths of loops that are judged
                          ///< together. Of 140 generated plates with windows, 137, 138 and 139
                          ///< are right with 0.1, 0.2 and 0.3, 134 if each is judged by itself
-  double certain = 3.0;  ///< absolute log odds from which on a loop is judged by itself: 20 to 1
+  double certain = 3.0;  ///< absolute log odds from which on loops are certain: 20 to 1
   double doubtful = 0.9; ///< probability; less certain decisions are listed in the report;
                          ///< about one in ten of those is wrong. Chosen by hand
 };
@@ -135,9 +135,11 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
 /// Changes the judgements of loops that are not certain by those of the loops of about the same width:
 /// a surface has several windows of one size, or many gaps of one sampling. The width is not measured
 /// in local spacings, which differ around equal windows by how the points lie at them: of 50 plates
-/// with windows and densities of 1 to 30, 50 are right instead of 48. Their log odds are added and
-/// divided by the root of their number, which lies between the mean of equal evidence and the sum of
-/// independent one. O(m log m) for m loops.
+/// with windows and densities of 1 to 30, 50 are right instead of 48. A loop that is certainly a gap
+/// by itself follows windows that are certain together: most of its width may be covered by triangles
+/// of points across. Of 100 generated grids of profiles, 93 are decided alike, 90 without. The log odds
+/// are added and divided by the root of their number, which lies between the mean of equal evidence
+/// and the sum of independent one. O(m log m) for m loops.
 /// \param loops measured and judged; those without points are left out
 void
 judgeTogether (const std::vector<BoundaryLoop*>& loops, const OpenLoopLimits& limits);
