@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/place_of_mesh.h"
+#include "mesh/zone_splicing.h"
 
 #include <algorithm>
 #include <array>
@@ -29,20 +30,6 @@ constexpr std::size_t LARGE_ZONE = 2048, TRIED_PLACES = 16, TRIED_AT_ONCE = 4, T
 // Times that a zone grows where it does not fit. 8, 16 and 40 made none of 9 bodies right that 4
 // left wrong.
 constexpr int MOST_GROWTHS = 4;
-
-// A patch of the frame of a zone, by one of its triangles.
-struct PatchSide
-{
-  Index triangle; // of the mesh
-  bool is_turned; // against the new triangles
-};
-
-struct NewZone
-{
-  std::vector<Index> points; // whose triangles go
-  std::vector<Triangle> triangles;
-  std::vector<PatchSide> patches;
-};
 
 class ZoneRemaker
 {
@@ -239,100 +226,6 @@ private:
   const RunContext run_;
 };
 
-// Puts new zones into a mesh.
-class ZoneSplicing
-{
-public:
-  // Of zones that have grown towards each other, the first ones are taken.
-  ZoneSplicing (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made)
-      : mesh_ (mesh), made_ (made), zone_of_ (mesh.triangles.size (), NONE)
-  {
-    std::vector<Index> zone_at (mesh.triangle_of.size (), NONE), gone, fan;
-    for (Index zone = 0; zone < made.size (); ++zone) {
-      if (!made[zone])
-        continue;
-      gone.clear ();
-      for (const Index p : made[zone]->points) {
-        mesh.fan (p, fan);
-        gone.insert (gone.end (), fan.begin (), fan.end ());
-      }
-      const auto isTaken = [&] (Index t) {
-        const Triangle& c = mesh.triangles[t];
-        return std::any_of (c.begin (), c.end (),
-                            [&] (Index p) { return zone_at[p] != NONE && zone_at[p] != zone; });
-      };
-      if (std::any_of (gone.begin (), gone.end (), isTaken)) {
-        made[zone].reset ();
-        continue;
-      }
-      for (const Index t : gone) {
-        zone_of_[t] = zone;
-        for (const Index p : mesh.triangles[t])
-          zone_at[p] = zone;
-      }
-    }
-  }
-
-  std::vector<Triangle> splice ()
-  {
-    const bool turns = std::any_of (made_.begin (), made_.end (), [] (const auto& zone) {
-      return zone && std::any_of (zone->patches.begin (), zone->patches.end (),
-                                  [] (const PatchSide& patch) { return patch.is_turned; });
-    });
-    is_turned_.assign (mesh_.triangles.size () + made_.size (), 0);
-    while (turns && !turnPatches ())
-      ;
-    std::vector<Triangle> triangles;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      if (stays (t))
-        triangles.push_back (turnedIf (is_turned_[t] != 0, mesh_.triangles[t]));
-    for (std::size_t zone = 0; zone < made_.size (); ++zone)
-      if (made_[zone])
-        for (const Triangle& t : made_[zone]->triangles)
-          triangles.push_back (turnedIf (is_turned_[mesh_.triangles.size () + zone] != 0, t));
-    return triangles;
-  }
-
-private:
-  bool stays (Index t) const { return zone_of_[t] == NONE || !made_[zone_of_[t]]; }
-
-  // Decides which triangles and zones are turned. If the sides of a zone contradict others, that
-  // zone stays as it was, and the result is false.
-  bool turnPatches ()
-  {
-    const std::size_t triangles = mesh_.triangles.size ();
-    SignedSets sets (triangles + made_.size ());
-    for (Index t = 0; t < triangles; ++t)
-      for (const Index u : mesh_.neighbors[t])
-        if (u != NONE && u < t && stays (t) && stays (u))
-          sets.join (t, u, false);
-    for (std::size_t zone = 0; zone < made_.size (); ++zone)
-      if (made_[zone])
-        for (const PatchSide& patch : made_[zone]->patches)
-          if (!sets.join (static_cast<Index> (triangles + zone), patch.triangle, patch.is_turned)) {
-            made_[zone].reset ();
-            return false;
-          }
-    // The side of most triangles stays the front.
-    std::vector<std::array<std::size_t, 2>> votes (is_turned_.size ());
-    for (Index t = 0; t < triangles; ++t)
-      if (stays (t)) {
-        const SignedSets::Place at = sets.find (t);
-        ++votes[at.root][at.flipped ? 1 : 0];
-      }
-    for (Index i = 0; i < is_turned_.size (); ++i) {
-      const SignedSets::Place at = sets.find (i);
-      is_turned_[i] = at.flipped != (votes[at.root][1] > votes[at.root][0]) ? 1 : 0;
-    }
-    return true;
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<std::optional<NewZone>>& made_;
-  std::vector<Index> zone_of_;          // of each triangle, NONE if it has no free corner
-  std::vector<std::uint8_t> is_turned_; // of each triangle, and then of each zone
-};
-
 // True if each point was in a zone of this size, within a tenth, that was tried in vain. Large zones
 // hardly become smaller with fewer rings, and would come out wrong again. The tenth is by hand.
 bool
@@ -371,7 +264,8 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     DisturbedZones zones =
         findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
                             is_whole ? widest : rings, whole_loops, limits.disturbance, run);
-    if (is_whole && 2 * zones.points.ids.size () <= positions.size ())
+    if (is_whole && (4 * zones.points.ids.size () <= positions.size () ||
+                     std::count (zones.is_boundary.begin (), zones.is_boundary.end (), 1) > 0))
       return;
     if (is_whole)
       zones = zoneOfAll (positions.size ());
@@ -392,7 +286,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
         made[zone] = remaker.remake (zones.points.row (zone), is_whole, is_noise[zone]);
     });
     TriangleMesh spliced;
-    spliced.triangles = ZoneSplicing (mesh, made).splice ();
+    spliced.triangles = spliceZones (mesh, made);
     std::size_t noisy_points = 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone)
       for (const Index p : is_tried[zone] != 0 ? zones.points.row (zone) : Row{}) {
