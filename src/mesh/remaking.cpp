@@ -258,14 +258,17 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
-  const int last = remade.failed.empty () ? 0 : 1; // 0: all points
+  int last = remade.failed.empty () ? 0 : 1; // 0: all points, if many are in zones
   for (bool whole_loops = true; rings >= last;) {
     const bool is_whole = rings == 0;
     DisturbedZones zones =
         findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
                             is_whole ? widest : rings, whole_loops, limits.disturbance, run);
-    if (is_whole && (4 * zones.points.ids.size () <= positions.size () ||
-                     std::count (zones.is_boundary.begin (), zones.is_boundary.end (), 1) > 0))
+    const bool are_few = 4 * zones.points.ids.size () <= positions.size ();
+    if (are_few && rings == widest)
+      last = 1;
+    if (is_whole &&
+        (are_few || std::count (zones.is_boundary.begin (), zones.is_boundary.end (), 1) > 0))
       return;
     if (is_whole)
       zones = zoneOfAll (positions.size ());
