@@ -288,6 +288,8 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       if (is_tried[zone] != 0)
         made[zone] = remaker.remake (zones.points.row (zone), is_whole, is_noise[zone]);
     });
+    if (is_whole && !made[0]) // what is known of the zones in it remains true
+      return;
     TriangleMesh spliced;
     spliced.triangles = spliceZones (mesh, made);
     std::size_t noisy_points = 0;
