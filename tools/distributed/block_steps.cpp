@@ -3,7 +3,6 @@
 #include "job.h"
 
 #include "cloud_geometry.h"
-#include "options/check_options.h"
 #include "points/neighbors.h"
 #include "points/net.h"
 #include "points/outliers.h"

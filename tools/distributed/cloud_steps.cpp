@@ -5,7 +5,6 @@
 #include "job.h"
 
 #include "input/input.h"
-#include "options/check_options.h"
 #include "prepared_input.h"
 #include "reconstruct.h"
 #include "report/report_cloud.h"
@@ -15,7 +14,6 @@
 #include <lodepng.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace pcl::floater {

@@ -11,9 +11,6 @@
 #include "points/points.h"
 #include "store.h"
 
-#include <string>
-#include <vector>
-
 namespace pcl::floater {
 struct Step;
 

@@ -5,17 +5,12 @@
 // known by its file alone, so that a run that was ended goes on where it was.
 #include "job.h"
 #include "option_table.h"
-#include "options/check_options.h"
 #include "scratch_arrays.h"
 
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
-#include <chrono>
 #include <cstdio>
-#include <optional>
-#include <thread>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

@@ -3,15 +3,12 @@
 #include "job.h"
 
 #include "input/input.h"
-#include "options/check_options.h"
 #include "prepared_input.h"
 #include "report_json.h"
 #include "stored_cloud.h"
 
 #include <nlohmann/json.hpp>
 #include <xxhash.h>
-
-#include <limits>
 
 namespace pcl::floater {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE (InputFile, file, bytes, checksum)

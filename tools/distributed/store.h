@@ -7,15 +7,6 @@
 #include "core/types.h"
 #include "run_report.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace pcl::floater {
 /// A file of points as it was when the plan was made.
 struct InputFile

@@ -10,8 +10,6 @@
 
 #include <map>
 #include <numeric>
-#include <string>
-#include <vector>
 
 namespace pcl::floater {
 using Box = BlockCutter::Box;

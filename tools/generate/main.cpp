@@ -4,10 +4,7 @@
 #include "small_tool.h"
 #include "surfaces.h"
 
-#include <filesystem>
 #include <map>
-#include <string>
-#include <vector>
 
 int
 main (int argc, char** argv)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
-#include <string>
 
 namespace pcl::floater {
 namespace {

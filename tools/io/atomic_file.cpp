@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "atomic_file.h"
 
-#include "cloud.h"
 #include "format.h"
 
 #include <fcntl.h>

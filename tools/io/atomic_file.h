@@ -7,9 +7,6 @@
 
 #include <charconv>
 #include <deque>
-#include <filesystem>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 

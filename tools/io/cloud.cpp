@@ -4,8 +4,6 @@
 
 #include "text_scanner.h"
 
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>

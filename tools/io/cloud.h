@@ -8,18 +8,10 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <initializer_list>
-#include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace pcl::floater {

@@ -11,8 +11,6 @@
 
 #include "cloud.h"
 
-#include <filesystem>
-
 namespace pcl::floater {
 /// Cuts a polygon into triangles at its first corner.
 /// \param points of which the corners must be

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_bytes.h"
 
-#include "cloud.h"
 #include "format.h"
 
 #include <fcntl.h>

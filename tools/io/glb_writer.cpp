@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace pcl::floater {

@@ -4,7 +4,6 @@
 
 #include <lodepng.h>
 
-#include <cmath>
 #include <new>
 
 namespace pcl::floater {

@@ -7,13 +7,6 @@
 
 #include <pcl/surface/floater/texture_coordinates.h>
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 namespace pcl::floater {
 /// An image of 8-bit colours, row by row from the top.
 struct ColourImage

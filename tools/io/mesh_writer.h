@@ -4,11 +4,7 @@
 #pragma once
 
 #include "atomic_file.h"
-#include "format.h"
 #include "mesh_texture.h"
-
-#include <array>
-#include <utility>
 
 namespace pcl::floater {
 /// What some formats have beside the points and the triangles, and what they lose.

@@ -10,7 +10,6 @@
 
 #include <Eigen/Geometry>
 
-#include <cmath>
 #include <sstream>
 
 namespace pcl::floater {

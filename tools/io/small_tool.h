@@ -10,7 +10,6 @@
 
 #include <iostream>
 #include <new>
-#include <stdexcept>
 
 namespace pcl::floater {
 /// Parses the command line, does the work, and prints what that throws: std::invalid_argument if

@@ -7,13 +7,7 @@
 #include "cloud_reader.h"
 #include "text_scanner.h"
 
-#include <array>
-#include <cstdint>
 #include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace pcl::floater {
 using Words = std::vector<std::string_view>;

@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cloud_reader.h"
 #include "table_head.h"
-
-#include <cmath>
-#include <limits>
 
 namespace pcl::floater {
 namespace {

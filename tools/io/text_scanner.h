@@ -5,11 +5,8 @@
 
 #include "cloud.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <string>
-#include <string_view>
 #include <system_error>
 
 namespace pcl::floater {

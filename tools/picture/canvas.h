@@ -5,13 +5,7 @@
 
 #include "mesh_texture.h"
 
-#include <Eigen/Core>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
-#include <vector>
 
 namespace pcl::floater {
 using Colour = Eigen::Vector3d; ///< red, green, blue from 0 to 1

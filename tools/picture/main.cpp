@@ -1,14 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pcl_floater_picture: draws a mesh and its parameterization into a PNG file.
-#include "cloud_reader.h"
 #include "mesh_picture.h"
 #include "small_tool.h"
-
-#include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 using pcl::floater::ColourImage;
 

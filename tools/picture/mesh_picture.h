@@ -9,10 +9,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include <cmath>
-#include <filesystem>
-#include <optional>
-
 namespace pcl::floater {
 /// A mesh with the vertices that its triangles use. They are moved to the origin, and scaled so
 /// that the longest side of their box is 2.

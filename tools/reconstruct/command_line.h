@@ -7,14 +7,6 @@
 #include "mesh_writer.h"
 #include "options/option_rows.h"
 
-#include <Eigen/Core>
-#include <array>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace pcl::floater {
 /// The command line is wrong, or asks for something impossible.
 struct UsageError : ToolError

@@ -16,11 +16,9 @@
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 
-#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 #include <pcl/surface/floater/vertex_normals.h>
 
-#include <cmath>
 #include <numeric>
 #include <unordered_map>
 

@@ -3,15 +3,10 @@
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
 #include "prepared_input.h"
-#include "reconstruct.h"
 #include "report_json.h"
 #include "text_scanner.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <limits>
 #include <new>
 
 #include <sys/resource.h>

@@ -9,9 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <functional>
 #include <sstream>
-#include <string>
 
 namespace pcl::floater {
 /// "; did you mean a or b?" with the words that a mistyped one begins, or else those that differ

@@ -7,9 +7,6 @@
 #include <Eigen/Geometry>
 #include <pcl/surface/floater/vertex_normals.h>
 
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 int
 exitCode (const Report& report, const RunFigures& run)

@@ -8,8 +8,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <string>
-
 namespace pcl::floater {
 /// JSON as text. It is UTF-8; in names of files, bytes that are not are replaced.
 /// \param indent -1: all on one line

@@ -6,13 +6,10 @@
 #include "command_line.h"
 
 #include <pcl/surface/floater/reconstruct.h>
-#include <pcl/surface/floater/texture_coordinates.h>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
 #include <chrono>
-#include <string>
 
 namespace pcl::floater {
 /// Figures of a run that the core does not know.
