@@ -52,16 +52,6 @@ planId (const std::vector<InputFile>& inputs, const std::string& parameters, std
   return hash (dump ({WORK_FORMAT, parameters, sums, arguments, blocks}));
 }
 
-std::string
-manifestText (const Plan& plan)
-{
-  ManifestJson json = plan;
-  json["format"] = FORMAT;
-  json["version"] = WORK_FORMAT;
-  json["checksum"] = hash (dump (json));
-  return dump (json, 2) + "\n";
-}
-
 // Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
 // points: below, more time goes to pages that come back than to all else.
 constexpr double KEPT_BY_PLAN = 9.0;
@@ -228,8 +218,12 @@ planStep (const Job& job, const Store& store)
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers);
-  writeFile (store.path (MANIFEST), manifestText (plan),
-             true); // last: with it, the step is finished
+  ManifestJson json = plan;
+  json["format"] = FORMAT;
+  json["version"] = WORK_FORMAT;
+  json["checksum"] = hash (dump (json));
+  // Last: with it, the step is finished.
+  writeFile (store.path (MANIFEST), dump (json, 2) + "\n", true);
   return EXIT_OK;
 }
 

@@ -15,8 +15,7 @@ namespace pcl::floater {
 
 namespace {
 constexpr std::uint64_t MAGIC = 0x0a42464c54434c50ULL; // "PLCTLFB\n" on a little-endian machine
-constexpr std::uint64_t PIECE = 16384; // bytes; what is read at least, to compare its checksum
-constexpr std::uint64_t AT_ONCE = 8 * PIECE; // bytes that are read at most
+constexpr std::uint64_t PIECE = 16384; // bytes; what is read at a time, to compare its checksum
 constexpr std::uint32_t MOST_ARRAYS = 64;
 
 struct Head
@@ -167,27 +166,19 @@ ArrayFile::find (const std::string& array) const
 }
 
 void
-ArrayFile::fillBuffer (const ArrayEntry& array, std::uint64_t at, std::uint64_t end)
+ArrayFile::readPiece (const ArrayEntry& array, std::uint64_t begin)
 {
-  const std::uint64_t begin = at / PIECE * PIECE;
-  const std::uint64_t wanted = std::min (
-      {(end - begin + PIECE - 1) / PIECE * PIECE, AT_ONCE, array.element * array.count - begin});
-  buffer_of_ = nullptr; // as long as nothing is known of its bytes
-  buffer_.resize (withChecksums (wanted));
-  file_.read (array.offset + withChecksums (begin), buffer_.size (), buffer_.data ());
-  const char* piece = buffer_.data ();
-  for (std::uint64_t to = 0, count = 0; to < wanted; to += count) {
-    count = std::min (PIECE, wanted - to);
-    std::uint64_t checksum = 0;
-    std::memcpy (&checksum, piece + count, sizeof (checksum));
-    if (checksumOf (piece, count) != checksum)
-      file_.refuse ("is damaged; delete it and run again");
-    std::memmove (buffer_.data () + to, piece, count);
-    piece += count + sizeof (checksum);
-  }
-  buffer_.resize (wanted);
-  buffer_of_ = &array;
-  buffer_at_ = begin;
+  const std::uint64_t count = std::min (PIECE, array.element * array.count - begin);
+  std::uint64_t checksum = 0;
+  piece_of_ = nullptr; // as long as nothing is known of its bytes
+  piece_.resize (count + sizeof (checksum));
+  file_.read (array.offset + withChecksums (begin), piece_.size (), piece_.data ());
+  std::memcpy (&checksum, piece_.data () + count, sizeof (checksum));
+  if (checksumOf (piece_.data (), count) != checksum)
+    file_.refuse ("is damaged; delete it and run again");
+  piece_.resize (count);
+  piece_of_ = &array;
+  piece_begin_ = begin;
 }
 
 void
@@ -195,12 +186,12 @@ ArrayFile::readBytes (const ArrayEntry& array, std::size_t first, std::size_t la
 {
   const std::uint64_t end = last * array.element;
   for (std::uint64_t at = first * array.element, count = 0; at < end; at += count) {
-    if (buffer_of_ != &array || at < buffer_at_ || at >= buffer_at_ + buffer_.size ())
-      fillBuffer (array, at, end);
-    const char* const from = buffer_.data () + (at - buffer_at_);
-    count = std::min<std::uint64_t> (end - at, buffer_at_ + buffer_.size () - at);
+    const std::uint64_t begin = at / PIECE * PIECE;
+    if (piece_of_ != &array || piece_begin_ != begin)
+      readPiece (array, begin);
+    count = std::min<std::uint64_t> (end, begin + piece_.size ()) - at;
     if (bytes != nullptr)
-      bytes = std::copy_n (from, count, bytes);
+      bytes = std::copy_n (piece_.data () + (at - begin), count, bytes);
   }
 }
 

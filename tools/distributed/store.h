@@ -164,15 +164,15 @@ public:
 
 private:
   const ArrayEntry& find (const std::string& array) const;
-  void fillBuffer (const ArrayEntry& array, std::uint64_t at, std::uint64_t end);
+  void readPiece (const ArrayEntry& array, std::uint64_t begin);
   /// \param bytes nullptr: the values are only compared with their checksums
   void readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes);
 
   WorkFile file_;
   std::vector<ArrayEntry> table_;
-  std::vector<char> buffer_; // bytes that were read last
-  const ArrayEntry* buffer_of_ = nullptr;
-  std::uint64_t buffer_at_ = 0; // where they are in the array
+  std::vector<char> piece_; // that was read last
+  const ArrayEntry* piece_of_ = nullptr;
+  std::uint64_t piece_begin_ = 0; // where it is in the array
 };
 
 /// The work folder. Its files are visible when they are complete and on the disk.

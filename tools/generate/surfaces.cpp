@@ -17,6 +17,13 @@ constexpr double MIN_HOLE = 4.0;      // smallest radius of a hole, in mean spac
 constexpr double TORUS_RADII = 2.5;   // great radius over small radius
 constexpr double MAX_DENSITY = 100.0; // largest density ratio for which the lattice stays even
 
+void
+require (bool fits, const char* message)
+{
+  if (!fits)
+    throw std::invalid_argument (message);
+}
+
 // A surface as an image of the unit square that preserves areas, up to a factor. Points slightly
 // beyond the square are on the continuation of the surface.
 struct Chart
@@ -64,6 +71,9 @@ sphere (double n, bool half)
 Chart
 finger (double n, double length)
 {
+  require (length >= 0.0 && std::isfinite (length), "the length of the finger must be 0 or more");
+  require (2.0 * PI * (1.0 + length) <= 0.25 * n,
+           "the finger is too long for so few points: its radius is below 2 spacings");
   const double radius = std::sqrt (n / (2.0 * PI * (1.0 + length)));
   auto distance_to_axis = [=] (double s) {
     const double z = 1.0 - std::min (1.0, (1.0 + length) * std::abs (s)); // in the hemisphere
@@ -81,6 +91,8 @@ finger (double n, double length)
 Chart
 foldedSheet (double n, double gap)
 {
+  require (gap > 0.0 && 0.25 * PI * gap < 0.9 * std::sqrt (0.5 * n),
+           "the gap of the folded sheet must be above 0, and so narrow that there are flaps");
   const double width = std::sqrt (0.5 * n), radius = 0.5 * gap;
   const double flap = width - 0.5 * PI * radius;
   auto lift = [=] (double s, double t) {
@@ -111,17 +123,14 @@ holesOf (int holes)
   return {columns, rows, HOLE_RADIUS / static_cast<double> (std::max (columns, rows))};
 }
 
-double
-sideOfCutOut (double n, int holes)
-{
-  const double radius = holes > 0 ? holesOf (holes).radius : 0.0;
-  return std::sqrt (n / (1.0 - holes * PI * radius * radius));
-}
-
 Chart
 cutOut (double n, int holes)
 {
-  const double side = sideOfCutOut (n, holes);
+  require (holes >= 0 && holes <= 10000, "the number of holes must be from 0 to 10000");
+  const double radius = holes > 0 ? holesOf (holes).radius : 0.0; // in sides
+  const double side = std::sqrt (n / (1.0 - holes * PI * radius * radius));
+  require (holes == 0 || radius * side >= MIN_HOLE,
+           "there are too many holes for so few points: their radius is below 4 spacings");
   auto lift = [side] (double s, double t) {
     return Eigen::Vector3d (side * s, side * t, 0.04 * side * std::sin (2.0 * PI * (s + 0.5 * t)));
   };
@@ -166,23 +175,13 @@ Chart
 chartOf (const SurfaceSpec& spec)
 {
   const double n = static_cast<double> (spec.points);
-  switch (spec.kind) {
-  case SurfaceKind::HEIGHT_FIELD:
-    return heightField (n);
-  case SurfaceKind::HEMISPHERE:
-    return sphere (n, true);
-  case SurfaceKind::FINGER:
-    return finger (n, spec.length);
-  case SurfaceKind::FOLDED_SHEET:
-    return foldedSheet (n, spec.gap);
-  case SurfaceKind::CUT_OUT:
-    return cutOut (n, spec.holes);
-  case SurfaceKind::SPHERE:
-    return sphere (n, false);
-  case SurfaceKind::TORUS:
-    return torus (n);
-  }
-  throw std::invalid_argument ("unknown kind of surface");
+  return spec.kind == SurfaceKind::HEIGHT_FIELD   ? heightField (n)
+         : spec.kind == SurfaceKind::HEMISPHERE   ? sphere (n, true)
+         : spec.kind == SurfaceKind::FINGER       ? finger (n, spec.length)
+         : spec.kind == SurfaceKind::FOLDED_SHEET ? foldedSheet (n, spec.gap)
+         : spec.kind == SurfaceKind::CUT_OUT      ? cutOut (n, spec.holes)
+         : spec.kind == SurfaceKind::SPHERE       ? sphere (n, false)
+                                                  : torus (n);
 }
 
 // Density that falls exponentially along s, or there and back: s as a function of the fraction f of
@@ -253,32 +252,6 @@ ringRotation (std::size_t n)
   return static_cast<double> (best) / static_cast<double> (n);
 }
 
-// The error in a specification, in one sentence; empty if there is none.
-std::string
-surfaceSpecError (const SurfaceSpec& spec)
-{
-  const double n = static_cast<double> (spec.points);
-  if (spec.points < MIN_SURFACE_POINTS)
-    return "a surface needs " + std::to_string (MIN_SURFACE_POINTS) + " points or more";
-  if (!(spec.density_ratio >= 1.0 && spec.density_ratio <= MAX_DENSITY))
-    return "the density ratio must be from 1 to 100";
-  if (!(spec.noise >= 0.0 && std::isfinite (spec.noise)))
-    return "the noise must be 0 or more";
-  if (spec.kind == SurfaceKind::FINGER && !(spec.length >= 0.0 && std::isfinite (spec.length)))
-    return "the length of the finger must be 0 or more";
-  if (spec.kind == SurfaceKind::FINGER && 2.0 * PI * (1.0 + spec.length) > 0.25 * n)
-    return "the finger is too long for so few points: its radius is below 2 spacings";
-  if (spec.kind == SurfaceKind::FOLDED_SHEET &&
-      !(spec.gap > 0.0 && 0.25 * PI * spec.gap < 0.9 * std::sqrt (0.5 * n)))
-    return "the gap of the folded sheet must be above 0, and so narrow that there are flaps";
-  if (spec.kind == SurfaceKind::CUT_OUT && !(spec.holes >= 0 && spec.holes <= 10000))
-    return "the number of holes must be from 0 to 10000";
-  if (spec.kind == SurfaceKind::CUT_OUT && spec.holes > 0 &&
-      holesOf (spec.holes).radius * sideOfCutOut (n, spec.holes) < MIN_HOLE)
-    return "there are too many holes for so few points: their radius is below 4 spacings";
-  return {};
-}
-
 } // namespace
 
 // The samples are the golden lattice (k / n, k * golden ratio mod 1), randomly displaced. It stays
@@ -288,8 +261,10 @@ surfaceSpecError (const SurfaceSpec& spec)
 std::vector<Eigen::Vector3d>
 generateSurface (const SurfaceSpec& spec)
 {
-  if (const std::string error = surfaceSpecError (spec); !error.empty ())
-    throw std::invalid_argument (error);
+  require (spec.points >= MIN_SURFACE_POINTS, "a surface needs 50 points or more");
+  require (spec.density_ratio >= 1.0 && spec.density_ratio <= MAX_DENSITY,
+           "the density ratio must be from 1 to 100");
+  require (spec.noise >= 0.0 && std::isfinite (spec.noise), "the noise must be 0 or more");
   const Chart chart = chartOf (spec);
   const Grading grading = [log_ratio = std::log (spec.density_ratio),
                            ring = chart.ring] (double f) { return graded (f, log_ratio, ring); };
