@@ -150,13 +150,12 @@ computeTexture (const CommandLine& line, const Cloud& cloud, Result& result)
   return texture;
 }
 
-/// Writes the file of materials of an OBJ file and the image, under temporary names.
-/// \return what is odd about them, one sentence each
-std::vector<std::string>
-stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& triangles,
+/// Writes the file of materials of an OBJ file and the image, under temporary names. Warnings tell
+/// what is odd about them.
+void
+stageTexture (const CommandLine& line, const Cloud& cloud, Result& result,
               const TextureCoordinates& texture, OutputFiles& files)
 {
-  std::vector<std::string> notes;
   if (const std::filesystem::path materials = line.materials (); !materials.empty ()) {
     std::string image; // relative to the folder of the materials, as readers expect it
     if (!line.texture.empty ())
@@ -170,15 +169,15 @@ stageTexture (const CommandLine& line, const Cloud& cloud, const Triangles& tria
                    (image.empty () ? "" : "map_Kd " + image + "\n"),
                files);
     if ((materials.filename ().string () + image).find (' ') != std::string::npos)
-      notes.emplace_back ("the name of the file of materials or of the texture has a space in it, "
-                          "which many readers of OBJ files do not take");
+      result.report.warnings.emplace_back (
+          "the name of the file of materials or of the texture has a space in it, which many "
+          "readers of OBJ files do not take");
   }
   if (!line.texture.empty ())
     stageFile (line.texture,
-               pngOf (bakeColours (cloud, triangles, texture,
+               pngOf (bakeColours (cloud, result.triangles, texture,
                                    static_cast<std::size_t> (line.texture_size))),
                files);
-  return notes;
 }
 
 /// Writes all outputs under temporary names, so that none is visible yet.
@@ -209,8 +208,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
   if (line.texture_coordinates) {
     for (std::uint32_t& point : run.texture.points)
       point = cloud.pointOf (point);
-    for (std::string& note : stageTexture (line, cloud, result.triangles, run.texture, files))
-      result.report.warnings.push_back (std::move (note));
+    stageTexture (line, cloud, result, run.texture, files);
     std::vector<std::uint32_t> points = run.texture.points; // points on seams are doubled
     points.erase (std::unique (points.begin (), points.end ()), points.end ());
     if (line.meshFormat () != writeObj)

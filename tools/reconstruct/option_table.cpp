@@ -178,11 +178,8 @@ CLI::Option*
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
          const std::string& description, const char* kind)
 {
-  const auto take = [&path] (const std::string& word) {
-    path = word;
-    return "";
-  };
-  return addParsed (app, name, take, description, kind);
+  const auto take = [&path] (const std::string& word) { path = word; };
+  return app.add_option_function<std::string> (name, take, description)->option_text (kind);
 }
 
 std::string

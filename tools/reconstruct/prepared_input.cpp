@@ -31,22 +31,6 @@ checkMemory (const CommandLine& line, std::size_t points, double kept_per_point)
 }
 
 namespace {
-Input
-makeInput (const Cloud& cloud)
-{
-  Input input;
-  input.positions.reserve (cloud.size ());
-  input.cloud_size = cloud.size ();
-  input.sensor_origin = cloud.sensor_origin;
-  for (std::size_t row = 0; row < cloud.size (); ++row)
-    if (!cloud.isLeftOut (row)) {
-      input.positions.push_back (cloud.position (row));
-      input.cloud_index.push_back (static_cast<std::uint32_t> (row));
-    }
-  giveBackMappedFiles ();
-  return input;
-}
-
 void
 takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
 {
@@ -173,7 +157,16 @@ Input
 prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures, double kept_per_point)
 {
   checkMemory (line, cloud.size (), kept_per_point);
-  Input input = makeInput (cloud);
+  Input input;
+  input.positions.reserve (cloud.size ());
+  input.cloud_size = cloud.size ();
+  input.sensor_origin = cloud.sensor_origin;
+  for (std::size_t row = 0; row < cloud.size (); ++row)
+    if (!cloud.isLeftOut (row)) {
+      input.positions.push_back (cloud.position (row));
+      input.cloud_index.push_back (static_cast<std::uint32_t> (row));
+    }
+  giveBackMappedFiles ();
   takeNormals (line, cloud, input);
   warnOfDegrees (input.positions, cloud);
   shiftOrigin (line, cloud, input);

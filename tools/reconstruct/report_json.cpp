@@ -63,17 +63,6 @@ PCL_FLOATER_TO_JSON (MeshCheck, nonmanifold_edges, nonmanifold_vertices, compone
 // NOLINTEND(readability-identifier-naming)
 
 namespace {
-// How many parts of the mesh face as they do by each rule that turned any.
-Json
-facingPartsJson (const Report& report)
-{
-  Json parts = Json::object ();
-  for (std::size_t rule = 0; rule < report.facing_parts.size (); ++rule)
-    if (report.facing_parts[rule] > 0)
-      parts[facingRuleName (static_cast<FacingRule> (rule))] = report.facing_parts[rule];
-  return parts;
-}
-
 // Writes what the table has on each option, with its value as the default.
 struct TableWriter
 {
@@ -160,6 +149,10 @@ resultJson (const Report& report)
   Json check = report.check.done ? Json (report.check) : Json ();
   if (report.check.done && report.is_view)
     check["self_intersections"] = nullptr; // they have not been searched
+  Json facing_parts = Json::object ();     // how many of them face as they do by each rule
+  for (std::size_t rule = 0; rule < report.facing_parts.size (); ++rule)
+    if (report.facing_parts[rule] > 0)
+      facing_parts[facingRuleName (static_cast<FacingRule> (rule))] = report.facing_parts[rule];
   return {{"verdict",
            {{"value", qualityName (report.verdict.value)},
             {"cause", report.verdict.cause},
@@ -171,7 +164,7 @@ resultJson (const Report& report)
           {"check", check},
           {"loop_decisions", report.loop_decisions},
           {"facing_certainty", report.facing_certainty},
-          {"facing_parts", facingPartsJson (report)},
+          {"facing_parts", facing_parts},
           {"facing_decisions", report.facing_decisions},
           {"findings", report.findings},
           {"statistics", report.statistics}};
