@@ -52,7 +52,7 @@ main (int argc, char** argv)
                   "\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
     for (const Eigen::Vector3d& point : points)
       for (const double coordinate : point)
-        file.writeNumber (static_cast<float> (coordinate), ByteOrder::LITTLE);
+        file.writeNumber (static_cast<float> (coordinate));
     file.publish ();
   });
 }

@@ -185,24 +185,18 @@ AtomicFile::~AtomicFile ()
 void
 AtomicFile::write (std::string_view bytes)
 {
-  if (bytes.size () > buffer_.size ()) {
-    flush ();
-    if (const int error = writeAll (descriptor_, bytes))
-      fail (error);
-    written_ += bytes.size ();
-  }
-  else {
-    bytes.copy (room (bytes.size ()), bytes.size ());
-    used_ += bytes.size ();
-  }
+  if (bytes.size () > buffer_.size ())
+    return flush (bytes);
+  bytes.copy (room (bytes.size ()), bytes.size ());
+  used_ += bytes.size ();
 }
 
 void
-AtomicFile::flush ()
+AtomicFile::flush (std::string_view then)
 {
-  if (const int error = writeAll (descriptor_, {buffer_.data (), used_}))
-    fail (error);
-  written_ += used_;
+  for (const std::string_view bytes : {std::string_view (buffer_.data (), used_), then})
+    if (const int error = writeAll (descriptor_, bytes))
+      fail (error);
   used_ = 0;
 }
 
@@ -211,20 +205,10 @@ AtomicFile::close ()
 {
   flush ();
   // Some file systems report a full disk only here.
-  int synced = -1;
-  do
-    synced = ::fsync (descriptor_);
-  while (synced != 0 && errno == EINTR);
-  if (synced != 0 && errno != EINVAL)
-    fail (errno);
-  struct stat status = {};
-  if (::fstat (descriptor_, &status) != 0)
-    fail (errno);
-  if (static_cast<std::size_t> (status.st_size) != written_)
-    fail (EIO);
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  if (::close (descriptor) != 0)
+  while (::fsync (descriptor_) != 0 && errno != EINVAL)
+    if (errno != EINTR)
+      fail (errno);
+  if (::close (std::exchange (descriptor_, -1)) != 0)
     fail (errno);
 }
 

@@ -48,7 +48,7 @@ public:
 
   /// Appends a number in the byte order of the file.
   template <typename T>
-  void writeNumber (T number, ByteOrder order)
+  void writeNumber (T number, ByteOrder order = ByteOrder::little)
   {
     copyNumber<T> (room (sizeof (T)), &number, order);
     used_ += sizeof (T);
@@ -89,7 +89,8 @@ private:
     return buffer_.data () + used_;
   }
 
-  void flush ();
+  /// Writes what is in the buffer, and then these bytes.
+  void flush (std::string_view then = {});
 
   [[noreturn]] void fail (int error) const;
 
@@ -98,8 +99,7 @@ private:
   std::string temporary_;
   int descriptor_ = -1;
   std::vector<char> buffer_;
-  std::size_t used_ = 0;    // bytes in the buffer
-  std::size_t written_ = 0; // bytes passed to the system
+  std::size_t used_ = 0; // bytes in the buffer
 };
 
 inline void

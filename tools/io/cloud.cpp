@@ -13,13 +13,12 @@ namespace {
 std::size_t
 coordinateField (const std::vector<Field>& fields, const std::string& name)
 {
-  const auto find = [&fields] (const std::string& called) {
-    return std::find_if (fields.begin (), fields.end (),
-                         [&] (const Field& field) { return field.name == called; });
-  };
-  auto found = find (name);
-  if (found == fields.end ())
-    found = find (std::string (1, static_cast<char> (name[0] - 'a' + 'A')));
+  auto found = fields.end ();
+  for (const char letter : {name[0], static_cast<char> (name[0] - 'a' + 'A')})
+    if (found == fields.end ())
+      found = std::find_if (fields.begin (), fields.end (), [letter] (const Field& field) {
+        return field.name == std::string (1, letter);
+      });
   if (found == fields.end ()) {
     std::string names;
     for (const Field& field : fields)
@@ -35,21 +34,24 @@ coordinateField (const std::vector<Field>& fields, const std::string& name)
   return static_cast<std::size_t> (found - fields.begin ());
 }
 
+/// A byte of the numbers of a field, as a field of this name.
+/// \param place from the lowest byte
+Field
+byteOf (const Field& field, std::size_t place, const std::string& name)
+{
+  const std::size_t at = field.order == ByteOrder::little ? place : sizeOf (field.type) - 1 - place;
+  return {name, ScalarType::UINT8, 1, {field.first, field.first.get () + at}, field.stride};
+}
+
 /// PCL packs a colour into the 32 bits of one number, from the highest: alpha, red, green, blue.
 void
 unpackColor (const Field& packed, bool with_alpha, std::vector<Field>& fields)
 {
-  const std::array<const char*, 4> names{"red", "green", "blue", "alpha"};
-  const std::array<std::size_t, 4> bytes_from_lowest{2, 1, 0, 3};
-  for (std::size_t channel = 0; channel < (with_alpha ? 4U : 3U); ++channel) {
-    const std::size_t offset = packed.order == ByteOrder::LITTLE
-                                   ? bytes_from_lowest[channel]
-                                   : sizeof (std::uint32_t) - 1 - bytes_from_lowest[channel];
-    Field field{names[channel], ScalarType::UINT8};
-    field.first = {packed.first, packed.first.get () + offset};
-    field.stride = packed.stride;
-    fields.push_back (std::move (field));
-  }
+  fields.push_back (byteOf (packed, 2, "red"));
+  fields.push_back (byteOf (packed, 1, "green"));
+  fields.push_back (byteOf (packed, 0, "blue"));
+  if (with_alpha)
+    fields.push_back (byteOf (packed, 3, "alpha"));
 }
 
 /// A name for the second and each further field of the same name, or of that of a coordinate.
@@ -129,11 +131,8 @@ narrowColors (Cloud& cloud)
     return;
   }
   if (channels[0]->type == ScalarType::UINT16) { // one of its two bytes
-    for (Field* channel : channels) {
-      const bool is_second = (channel->order == ByteOrder::LITTLE) == (largest > BYTE);
-      channel->first = {channel->first, channel->first.get () + (is_second ? 1 : 0)};
-      channel->type = ScalarType::UINT8;
-    }
+    for (Field* channel : channels)
+      *channel = byteOf (*channel, largest > BYTE ? 1 : 0, channel->name);
     return;
   }
   if (largest > BYTE)
@@ -255,11 +254,9 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
   for (auto& triangle : triangles)
     for (std::uint32_t& corner : triangle)
       corner = numbers[corner];
-  const auto isRemoved = [] (const auto& triangle) {
+  boost::remove_erase_if (triangles, [] (const auto& triangle) {
     return std::find (triangle.begin (), triangle.end (), REMOVED) != triangle.end ();
-  };
-  triangles.erase (std::remove_if (triangles.begin (), triangles.end (), isRemoved),
-                   triangles.end ());
+  });
   return not_finite;
 }
 
@@ -286,13 +283,11 @@ copyRows (const Cloud& cloud, const std::vector<std::size_t>& rows)
   copied.kept.clear ();
   copied.rows = rows.size ();
   for (Field* field : allFields (copied)) {
-    const std::size_t bytes = field->pointBytes ();
-    const std::shared_ptr<char> values (new char[bytes * rows.size ()],
-                                        std::default_delete<char[]> ());
-    for (std::size_t i = 0; i < rows.size (); ++i)
-      std::memcpy (values.get () + i * bytes, field->first.get () + rows[i] * field->stride, bytes);
-    field->first = values;
-    field->stride = bytes;
+    const Field from = *field;
+    char* to = allocateRows ({field}, rows.size ()).get (); // which the field keeps
+    field->order = from.order;
+    for (const std::size_t row : rows)
+      to = std::copy_n (from.first.get () + row * from.stride, field->stride, to);
   }
   return copied;
 }

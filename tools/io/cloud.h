@@ -7,6 +7,7 @@
 #include "format.h"
 
 #include <Eigen/Core>
+#include <boost/range/algorithm_ext/erase.hpp>
 
 #include <cstdint>
 #include <initializer_list>
@@ -93,7 +94,7 @@ struct Field
   std::size_t count = 1;
   std::shared_ptr<const char> first = {}; ///< first value of the first point; any alignment
   std::size_t stride = 0;                 ///< bytes from one point to the next
-  ByteOrder order = HOST_BYTE_ORDER;
+  ByteOrder order = ByteOrder::native;
   double scale = 1.0;   ///< of coordinates: they are value * scale + offset
   double offset = -0.0; ///< so that the sign of a zero stays
 
@@ -178,7 +179,7 @@ allocateRows (const std::vector<Field*>& fields, std::size_t points)
 {
   const std::shared_ptr<char> rows (new char[points * rowBytes (fields)],
                                     std::default_delete<char[]> ());
-  viewRows (fields, rows, HOST_BYTE_ORDER);
+  viewRows (fields, rows, ByteOrder::native);
   return rows;
 }
 
@@ -361,10 +362,9 @@ void
 replaceColumns (const std::vector<std::string>& names, ScalarType type, Values values,
                 std::vector<Field>& fields)
 {
-  const auto isNamed = [&names] (const Field& field) {
+  boost::remove_erase_if (fields, [&names] (const Field& field) {
     return std::find (names.begin (), names.end (), field.name) != names.end ();
-  };
-  fields.erase (std::remove_if (fields.begin (), fields.end (), isNamed), fields.end ());
+  });
   addColumns (names, type, std::move (values), fields);
 }
 

@@ -50,27 +50,20 @@ struct FileBytes::Holder
       mapped_files.erase (at);
       ::munmap (at, bytes.size ());
     }
-    if (descriptor >= 0)
-      ::close (descriptor);
+    ::close (descriptor);
   }
   Holder (const Holder&) = delete;
   Holder& operator= (const Holder&) = delete;
 
   void readAll ()
   {
-    constexpr std::size_t STEP = 1U << 16U;
-    std::size_t used = 0;
-    for (;;) {
-      if (used == own.size ())
-        own.resize (used + std::max (STEP, used));
-      const ssize_t got = ::read (descriptor, own.data () + used, own.size () - used);
+    std::array<char, 1U << 16U> step{};
+    for (ssize_t got = -1; got != 0;) {
+      got = ::read (descriptor, step.data (), step.size ());
       if (got < 0 && errno != EINTR)
         throw ReadError (std::strerror (errno));
-      if (got == 0)
-        break;
-      used += static_cast<std::size_t> (std::max<ssize_t> (got, 0));
+      own.append (step.data (), static_cast<std::size_t> (std::max<ssize_t> (got, 0)));
     }
-    own.resize (used);
     bytes = own;
   }
 

@@ -3,6 +3,8 @@
 // The bytes of a file, without a copy where possible, and numbers in its byte order.
 #pragma once
 
+#include <boost/endian/conversion.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -44,30 +46,23 @@ struct ReadError : ToolError
   explicit ReadError (const std::string& message) : ToolError (EXIT_INPUT, message) {}
 };
 
-enum class ByteOrder
-{
-  LITTLE,
-  BIG
-};
-
-constexpr ByteOrder HOST_BYTE_ORDER =
-    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? ByteOrder::LITTLE : ByteOrder::BIG;
+using ByteOrder = boost::endian::order; ///< little, big, or native: that of this machine
 
 /// Copies a number from the byte order of a file to that of this machine, or the other way.
 template <typename T>
 inline void
-copyNumber (void* to, const void* from, ByteOrder order)
+copyNumber (void* to, const void* from, ByteOrder order = ByteOrder::little)
 {
   std::array<char, sizeof (T)> bytes{};
   std::memcpy (bytes.data (), from, sizeof (T));
-  if (order != HOST_BYTE_ORDER)
+  if (order != ByteOrder::native)
     std::reverse (bytes.begin (), bytes.end ());
   std::memcpy (to, bytes.data (), sizeof (T));
 }
 
 template <typename T>
 inline T
-readNumber (const void* from, ByteOrder order)
+readNumber (const void* from, ByteOrder order = ByteOrder::little)
 {
   T number;
   copyNumber<T> (&number, from, order);

@@ -104,7 +104,7 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
     throw WriteError (
         "cannot write the mesh as .glb, which holds 4 GB at most; write .ply or .vtk");
   const auto write = [&file] (std::size_t number) {
-    file.writeNumber (static_cast<std::uint32_t> (number), ByteOrder::LITTLE);
+    file.writeNumber (static_cast<std::uint32_t> (number));
   };
   write (MAGIC);
   write (2); // version
@@ -115,21 +115,19 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   write (bytes);
   write (BINARY_CHUNK);
   for (std::size_t i = 0; i < cloud.size (); ++i)
-    writeVector (file, cloud.position (i).cast<float> ());
+    writeNumbers (file, cloud.position (i).cast<float> ().eval ());
   if (normals[0])
     for (std::size_t i = 0; i < cloud.size (); ++i)
-      writeVector (file, unitNormal (normals, cloud.row (i)));
+      writeNumbers (file, unitNormal (normals, cloud.row (i)));
   if (colors[0])
     for (std::size_t i = 0; i < cloud.size (); ++i) {
       for (const Field* channel : colors)
-        file.writeNumber (channel->value<std::uint8_t> (cloud.row (i)), ByteOrder::LITTLE);
+        file.writeNumber (channel->value<std::uint8_t> (cloud.row (i)));
       constexpr std::uint8_t OPAQUE = 255;
-      file.writeNumber (has_alpha ? alpha->value<std::uint8_t> (cloud.row (i)) : OPAQUE,
-                        ByteOrder::LITTLE);
+      file.writeNumber (has_alpha ? alpha->value<std::uint8_t> (cloud.row (i)) : OPAQUE);
     }
   for (const auto& triangle : triangles)
-    for (const std::uint32_t corner : triangle)
-      file.writeNumber (corner, ByteOrder::LITTLE);
+    writeNumbers (file, triangle);
 }
 
 } // namespace pcl::floater

@@ -150,8 +150,7 @@ parseBinary (std::size_t facets, std::string_view bytes)
       std::array<float, 3>& point = corners.emplace_back ();
       for (std::size_t axis = 0; axis < 3; ++axis)
         point[axis] = readNumber<float> (bytes.data () + f * FACET_BYTES +
-                                             (3 * corner + axis) * sizeof (float),
-                                         ByteOrder::LITTLE);
+                                         (3 * corner + axis) * sizeof (float));
     }
   Cloud cloud = cloudOf (std::move (corners));
   if (bytes.size () > facets * FACET_BYTES)
@@ -241,7 +240,7 @@ parseStl (const FileBytes& file, const ReadOptions& /*options*/)
   constexpr std::size_t COUNT_AT = 80, FACETS_AT = COUNT_AT + sizeof (std::uint32_t);
   std::optional<std::size_t> facets; // of a binary file
   if (bytes.size () >= FACETS_AT)
-    facets = readNumber<std::uint32_t> (bytes.data () + COUNT_AT, ByteOrder::LITTLE);
+    facets = readNumber<std::uint32_t> (bytes.data () + COUNT_AT);
   TextScanner scanner (bytes);
   // Some programs begin binary files with "solid", too: then only the length tells.
   if (scanner.nextFilledLine () && isWord (scanner.word (), "solid") &&

@@ -67,7 +67,7 @@ writeValues (AtomicFile& file, const std::array<const Field*, N>& fields, const 
     for (std::size_t i = 0; i < cloud.size (); ++i)
       for (const Field* field : fields)
         for (std::size_t c = 0; c < field->count; ++c)
-          file.writeNumber (field->value<decltype (tag)> (cloud.row (i), c), ByteOrder::BIG);
+          file.writeNumber (field->value<decltype (tag)> (cloud.row (i), c), ByteOrder::big);
   });
   file.print ("\n");
 }
@@ -188,12 +188,12 @@ writeStl (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   std::string header = COMMENT;
   header.resize (HEADER, ' ');
   file.write (header);
-  file.writeNumber (static_cast<std::uint32_t> (triangles.size ()), ByteOrder::LITTLE);
+  file.writeNumber (static_cast<std::uint32_t> (triangles.size ()));
   for (const auto& [a, b, c] : triangles) {
     const Eigen::Vector3d p = cloud.position (a), q = cloud.position (b), r = cloud.position (c);
     for (const Eigen::Vector3d& vector : {(q - p).cross (r - p).normalized ().eval (), p, q, r})
-      writeVector (file, vector.cast<float> ());
-    file.writeNumber (std::uint16_t{0}, ByteOrder::LITTLE);
+      writeNumbers (file, vector.cast<float> ().eval ());
+    file.writeNumber (std::uint16_t{0});
   }
 }
 
@@ -211,11 +211,11 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
               "\nBINARY\nDATASET POLYDATA\nPOINTS ", cloud.size (),
               cloud.single_precision ? " float\n" : " double\n");
   for (std::size_t i = 0; i < cloud.size (); ++i)
-    forCoordinates (cloud, i, [&file] (auto number) { file.writeNumber (number, ByteOrder::BIG); });
+    forCoordinates (cloud, i, [&file] (auto number) { file.writeNumber (number, ByteOrder::big); });
   file.print ("\nPOLYGONS ", triangles.size (), " ", 4 * triangles.size (), "\n");
   for (const auto& [a, b, c] : triangles)
     for (const std::uint32_t number : {std::uint32_t{3}, a, b, c})
-      file.writeNumber (number, ByteOrder::BIG);
+      file.writeNumber (number, ByteOrder::big);
   file.print ("\n");
 
   const FieldTriple colors = colorFields (cloud);
@@ -271,23 +271,21 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   file.print ("element face ", triangles.size (),
               "\nproperty list uchar int vertex_indices\nend_header\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
-    forCoordinates (cloud, i,
-                    [&file] (auto number) { file.writeNumber (number, ByteOrder::LITTLE); });
+    forCoordinates (cloud, i, [&file] (auto number) { file.writeNumber (number); });
     for (const Field& field : cloud.fields)
       visitType (field.type, [&] (auto value) {
         for (std::size_t c = 0; c < field.count; ++c) {
           value = field.value<decltype (value)> (cloud.row (i), c);
           if (isLong (field.type))
-            file.writeNumber (static_cast<double> (value), ByteOrder::LITTLE);
+            file.writeNumber (static_cast<double> (value));
           else
-            file.writeNumber (value, ByteOrder::LITTLE);
+            file.writeNumber (value);
         }
       });
   }
   for (const auto& triangle : triangles) {
-    file.writeNumber (std::uint8_t{3}, ByteOrder::LITTLE);
-    for (const std::uint32_t corner : triangle)
-      file.writeNumber (corner, ByteOrder::LITTLE);
+    file.writeNumber (std::uint8_t{3});
+    writeNumbers (file, triangle);
   }
 }
 

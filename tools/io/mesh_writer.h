@@ -54,12 +54,13 @@ std::vector<std::string>
 writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangles& triangles,
            MeshFormat format, OutputFiles& files, const TextureCoordinates* texture = nullptr);
 
-/// The coordinates, little endian.
-inline void
-writeVector (AtomicFile& file, const Eigen::Vector3f& vector)
+/// Numbers of a vector or of a triangle, little endian.
+template <typename Numbers>
+void
+writeNumbers (AtomicFile& file, const Numbers& numbers)
 {
-  for (const float coordinate : vector)
-    file.writeNumber (coordinate, ByteOrder::LITTLE);
+  for (const auto number : numbers)
+    file.writeNumber (number);
 }
 
 /// Number of triangles of which 32-bit floats make two corners one: readers may merge those.

@@ -133,9 +133,7 @@ std::vector<Field*>
 fieldsToKeep (PcdHeader& header)
 {
   std::vector<Field*> fields = pointersTo (header.fields);
-  fields.erase (std::remove_if (fields.begin (), fields.end (),
-                                [] (const Field* field) { return field->name == PADDING; }),
-                fields.end ());
+  boost::remove_erase_if (fields, [] (const Field* field) { return field->name == PADDING; });
   return fields;
 }
 
@@ -172,7 +170,7 @@ readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
 {
   const std::size_t stride = rowBytes (pointersTo (header.fields));
   requireRoom ("points", header.points, stride, file.view ().size () - begin);
-  viewRows (pointersTo (header.fields), file.at (begin), ByteOrder::LITTLE);
+  viewRows (pointersTo (header.fields), file.at (begin), ByteOrder::little);
   // PCL's writer fills the last block of the disk with zeros.
   const std::string_view rest = file.view ().substr (begin + header.points * stride);
   return rest.find_first_not_of ('\0') != std::string_view::npos;
@@ -187,9 +185,8 @@ readCompressed (std::string_view bytes, PcdHeader& header)
   constexpr std::size_t MOST_PER_BYTE = 132; // an LZF reference of 2 bytes stands for at most 264
   if (bytes.size () < SIZES)
     throw ReadError ("the compressed data are truncated");
-  const auto compressed = readNumber<std::uint32_t> (bytes.data (), ByteOrder::LITTLE);
-  const auto expected =
-      readNumber<std::uint32_t> (bytes.data () + sizeof (std::uint32_t), ByteOrder::LITTLE);
+  const auto compressed = readNumber<std::uint32_t> (bytes.data ());
+  const auto expected = readNumber<std::uint32_t> (bytes.data () + sizeof (std::uint32_t));
   bytes.remove_prefix (SIZES);
   if (compressed > bytes.size ())
     throw ReadError ("there should be " + counted (compressed, "byte") +
@@ -210,9 +207,7 @@ readCompressed (std::string_view bytes, PcdHeader& header)
 #endif
   std::size_t offset = 0;
   for (Field* field : fields) {
-    field->first = {values, values.get () + offset};
-    field->stride = field->pointBytes ();
-    field->order = ByteOrder::LITTLE;
+    viewRows ({field}, {values, values.get () + offset}, ByteOrder::little);
     offset += header.points * field->stride;
   }
 }

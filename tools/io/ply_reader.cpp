@@ -77,9 +77,9 @@ readPlyHeader (TextScanner& scanner)
     if (key == "format") {
       const std::string_view format = scanner.word ();
       if (format == "binary_little_endian")
-        header.byte_order = ByteOrder::LITTLE;
+        header.byte_order = ByteOrder::little;
       else if (format == "binary_big_endian")
-        header.byte_order = ByteOrder::BIG;
+        header.byte_order = ByteOrder::big;
       else if (format != "ascii")
         scanner.fail ("'" + std::string (format) + "' is not a format of PLY");
       has_format = true;

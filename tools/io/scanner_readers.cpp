@@ -46,13 +46,6 @@ struct LasHeader
   bool isLong () const { return format >= FIRST_LONG; }
 };
 
-template <typename T>
-T
-numberAt (std::string_view bytes, std::size_t at)
-{
-  return readNumber<T> (bytes.data () + at, ByteOrder::LITTLE);
-}
-
 LasHeader
 readHeader (std::string_view bytes)
 {
@@ -61,41 +54,41 @@ readHeader (std::string_view bytes)
     throw ReadError ("it does not begin with 'LASF', so it is not a LAS file");
   if (bytes.size () < HEADER_BYTES)
     throw ReadError ("its header is truncated");
-  const int major = numberAt<std::uint8_t> (bytes, VERSION_AT);
-  const int minor = numberAt<std::uint8_t> (bytes, VERSION_AT + 1);
+  const int major = readNumber<std::uint8_t> (bytes.data () + VERSION_AT);
+  const int minor = readNumber<std::uint8_t> (bytes.data () + VERSION_AT + 1);
   if (major != 1 || minor > 4)
     throw ReadError ("it is of version " + std::to_string (major) + "." + std::to_string (minor) +
                      " of LAS; 1.0 to 1.4 can be read");
-  const std::size_t header_size = numberAt<std::uint16_t> (bytes, HEADER_SIZE_AT);
+  const std::size_t header_size = readNumber<std::uint16_t> (bytes.data () + HEADER_SIZE_AT);
   const std::size_t least = minor >= 4 ? HEADER_BYTES_14 : HEADER_BYTES;
   if (header_size < least || bytes.size () < least)
     throw ReadError ("its header has " + counted (std::min (header_size, bytes.size ()), "byte") +
                      ", fewer than the " + std::to_string (least) + " that it must have");
   LasHeader header;
-  header.points_at = numberAt<std::uint32_t> (bytes, POINTS_AT);
+  header.points_at = readNumber<std::uint32_t> (bytes.data () + POINTS_AT);
   if (header.points_at < header_size || header.points_at > bytes.size ())
     throw ReadError ("its header tells that the points begin at byte " +
                      std::to_string (header.points_at) +
                      ", where there are none; the file is truncated or its header is wrong");
-  header.format = numberAt<std::uint8_t> (bytes, FORMAT_AT);
+  header.format = readNumber<std::uint8_t> (bytes.data () + FORMAT_AT);
   constexpr unsigned COMPRESSED = 0xC0; // the bits that compressors set
   if ((header.format & COMPRESSED) != 0)
     throw ReadError (LAZ_ADVICE);
   if (header.format >= POINT_SIZE.size ())
     throw ReadError ("its points are of format " + std::to_string (header.format) +
                      "; 0 to 10 can be read");
-  header.record_size = numberAt<std::uint16_t> (bytes, RECORD_SIZE_AT);
+  header.record_size = readNumber<std::uint16_t> (bytes.data () + RECORD_SIZE_AT);
   if (header.record_size < POINT_SIZE[header.format])
     throw ReadError ("its header gives each point " + counted (header.record_size, "byte") +
                      ", fewer than the " + std::to_string (POINT_SIZE[header.format]) +
                      " of point format " + std::to_string (header.format));
-  header.count = numberAt<std::uint32_t> (bytes, LEGACY_COUNT_AT);
+  header.count = readNumber<std::uint32_t> (bytes.data () + LEGACY_COUNT_AT);
   if (minor >= 4)
-    if (const auto count = numberAt<std::uint64_t> (bytes, COUNT_AT); count > 0)
+    if (const auto count = readNumber<std::uint64_t> (bytes.data () + COUNT_AT); count > 0)
       header.count = count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    header.scales[axis] = numberAt<double> (bytes, SCALES_AT + axis * sizeof (double));
-    header.offsets[axis] = numberAt<double> (bytes, OFFSETS_AT + axis * sizeof (double));
+    header.scales[axis] = readNumber<double> (bytes.data () + SCALES_AT + axis * sizeof (double));
+    header.offsets[axis] = readNumber<double> (bytes.data () + OFFSETS_AT + axis * sizeof (double));
     if (!std::isfinite (header.scales[axis]) || header.scales[axis] == 0.0 ||
         !std::isfinite (header.offsets[axis]))
       throw ReadError (
@@ -225,7 +218,7 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   std::vector<Field> fields;
   const auto add = [&] (const char* name, ScalarType type, std::size_t at) -> Field& {
     return fields.emplace_back (Field{name, type, 1, file.at (header.points_at + at),
-                                      header.record_size, ByteOrder::LITTLE});
+                                      header.record_size, ByteOrder::little});
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     constexpr std::array<const char*, 3> AXES{"x", "y", "z"};
@@ -315,7 +308,7 @@ parseBin (const FileBytes& file, const ReadOptions& /*options*/)
     std::vector<Field> fields{{"x"}, {"y"}, {"z"}, {"intensity"}, {"ring"}}; // floats
     fields.resize (count);
     const std::size_t points = bytes / (count * sizeof (float));
-    viewRows (pointersTo (fields), file.at (0), ByteOrder::LITTLE);
+    viewRows (pointersTo (fields), file.at (0), ByteOrder::little);
     bool fits = points > 0 && bytes == points * count * sizeof (float);
     for (std::size_t p = 0; p < points && fits; ++p) {
       for (std::size_t axis = 0; axis < 3; ++axis)

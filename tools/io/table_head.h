@@ -74,12 +74,9 @@ struct TableHead
 inline std::string_view
 trim (std::string_view text)
 {
-  const auto isOuter = [] (char c) { return TextScanner::isBlank (c) || c == '"'; };
-  while (!text.empty () && isOuter (text.front ()))
-    text.remove_prefix (1);
-  while (!text.empty () && isOuter (text.back ()))
-    text.remove_suffix (1);
-  return text;
+  constexpr const char* OUTER = " \t\r\v\f\"";
+  text.remove_prefix (std::min (text.find_first_not_of (OUTER), text.size ()));
+  return text.substr (0, text.find_last_not_of (OUTER) + 1); // npos + 1 is 0
 }
 
 /// Cuts a line into columns, without blanks and quotes around them. An empty last one is left out.

@@ -24,16 +24,11 @@ parseNumber (std::string_view word, T& number)
     return false;
   if (error == std::errc{})
     return true;
-  if constexpr (std::is_floating_point_v<T>) {
+  if constexpr (std::is_floating_point_v<T>)
     if (error == std::errc::result_out_of_range) {
-      const std::string copy (word);
-      if constexpr (std::is_same_v<T, float>)
-        number = std::strtof (copy.c_str (), nullptr);
-      else
-        number = std::strtod (copy.c_str (), nullptr);
+      number = static_cast<T> (std::strtod (std::string (word).c_str (), nullptr));
       return true;
     }
-  }
   return false;
 }
 

@@ -128,7 +128,7 @@ private:
     requireRoom ("rows of its " + section_, rows, is_binary_ ? row_bytes : text_bytes,
                  bytes_.size () - at_ + (is_binary_ ? 0 : 1));
     if (is_binary_) {
-      viewRows (fields, file_.at (at_), ByteOrder::BIG);
+      viewRows (fields, file_.at (at_), ByteOrder::big);
       at_ += rows * row_bytes;
       return;
     }
@@ -253,7 +253,7 @@ public:
     root_ = findTag ("<VTKFile", at);
     if (root_.empty ())
       throw ReadError ("it has no <VTKFile>, so it is not a VTK file in XML");
-    order_ = attributeOf (root_, "byte_order") == "BigEndian" ? ByteOrder::BIG : ByteOrder::LITTLE;
+    order_ = attributeOf (root_, "byte_order") == "BigEndian" ? ByteOrder::big : ByteOrder::little;
     has_long_headers_ = attributeOf (root_, "header_type") == "UInt64";
     const std::string_view compressor = attributeOf (root_, "compressor");
     is_compressed_ = !compressor.empty ();
@@ -347,7 +347,7 @@ private:
           values.append (reinterpret_cast<const char*> (&number), sizeof number);
         });
       }
-      order = HOST_BYTE_ORDER;
+      order = ByteOrder::native;
     }
     else if (format == "appended") {
       std::size_t begin = 0;
@@ -379,7 +379,7 @@ private:
   }
 
   std::string_view text_, root_;
-  ByteOrder order_ = ByteOrder::LITTLE;
+  ByteOrder order_ = ByteOrder::little;
   bool has_long_headers_ = false, is_compressed_ = false;
   std::size_t points_ = 0;
 };

@@ -240,7 +240,7 @@ base64 (const std::vector<Number>& numbers)
 {
   std::string bytes (numbers.size () * sizeof (Number), '\0');
   for (std::size_t i = 0; i < numbers.size (); ++i)
-    copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i], ByteOrder::LITTLE);
+    copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i]);
   using SixBits = boost::archive::iterators::transform_width<const char*, 6, 8>;
   using Digits = boost::archive::iterators::base64_from_binary<SixBits>;
   const std::size_t padding = (3 - bytes.size () % 3) % 3;
