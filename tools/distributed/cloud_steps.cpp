@@ -272,9 +272,7 @@ joinStep (const Job& job, const Store& store, const Plan& plan)
   RunFigures figures = plan.figures;
   figures.reconstruct_seconds = secondsSince (start);
   figures.writes_single = line.precision != Precision::DOUBLE;
-  report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
-  report.warnings.insert (report.warnings.begin (), plan.warnings.begin (), plan.warnings.end ());
-  reportMemory (line, report);
+  completeReport (line, plan.warnings, report);
   line.input = job.inputs.front ();
   writeFile (store.path (REPORT), reportText (line, report, figures), true);
   printOutcome (line, report, figures);

@@ -55,11 +55,10 @@ addSteps (CLI::App& app, Job& job)
   addNumber (app, "--blocks", job.blocks,
              "blocks into which the points are cut; 0: of half a million points each; the result "
              "is the same");
-  std::vector<std::string> names;
-  std::string of_blocks, of_all;
+  std::vector<std::string> names, of_blocks, of_all;
   for (const Step& step : STEPS) {
     names.emplace_back (step.name);
-    (step.of_block != nullptr ? of_blocks : of_all) += std::string (", ") + step.name;
+    (step.of_block != nullptr ? of_blocks : of_all).emplace_back (step.name);
   }
   const auto choose = [&job, names] (const std::string& word) {
     for (const Step& step : STEPS)
@@ -68,8 +67,8 @@ addSteps (CLI::App& app, Job& job)
     return job.step != nullptr ? "" : "is no step" + didYouMean (word, names);
   };
   addParsed (app, "--step", choose,
-             "do this step only: " + of_all.substr (2) +
-                 "; or for a block: " + of_blocks.substr (2),
+             "do this step only: " + boost::join (of_all, ", ") +
+                 "; or for a block: " + boost::join (of_blocks, ", "),
              "NAME (all)");
   addNumber (app, "--block", job.block, "block of the step, from 0")->option_text ("N");
   app.add_flag ("--print-steps", job.prints_steps,
@@ -178,7 +177,7 @@ constexpr const char *PROGRAM = "pcl_floater_distributed",
                      *IF_NO_MEMORY = "use more blocks, or a machine with more";
 
 /// The processes that work on a run. All calls of MPI are here.
-class Processes
+class Processes : private boost::noncopyable
 {
 public:
   /// Threads that call no function of this may run.
@@ -197,8 +196,6 @@ public:
     if (are_of_mpi_)
       MPI_Finalize ();
   }
-  Processes (const Processes&) = delete;
-  Processes& operator= (const Processes&) = delete;
 
   int self () const { return self_; } ///< from 0 on
 

@@ -34,15 +34,13 @@ handleSignals (int input_failed = 1);
 /// Symbolic links are followed, and a file that is replaced keeps its permissions. "-" is the
 /// standard output: it gets the bytes of the complete file at the end, which until then is in the
 /// folder for temporary files.
-class AtomicFile
+class AtomicFile : private boost::noncopyable
 {
 public:
   /// \throws WriteError, as do all other members
   /// \param is_private for this user only, and in the place of a symbolic link, not behind it
   explicit AtomicFile (const std::filesystem::path& path, bool is_private = false);
   ~AtomicFile ();
-  AtomicFile (const AtomicFile&) = delete;
-  AtomicFile& operator= (const AtomicFile&) = delete;
 
   void write (std::string_view bytes);
 

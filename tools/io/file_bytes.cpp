@@ -20,7 +20,7 @@ std::mutex mapped_files_mutex;
 
 } // namespace
 
-struct FileBytes::Holder
+struct FileBytes::Holder : private boost::noncopyable
 {
   /// \param opened a descriptor; negative if that failed
   explicit Holder (int opened) : descriptor (opened)
@@ -52,8 +52,6 @@ struct FileBytes::Holder
     }
     ::close (descriptor);
   }
-  Holder (const Holder&) = delete;
-  Holder& operator= (const Holder&) = delete;
 
   void readAll ()
   {

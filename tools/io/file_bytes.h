@@ -4,6 +4,7 @@
 #pragma once
 
 #include <boost/endian/conversion.hpp>
+#include <boost/noncopyable.hpp>
 
 #include <algorithm>
 #include <array>

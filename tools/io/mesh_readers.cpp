@@ -185,8 +185,7 @@ Cloud
 parseObj (const FileBytes& file, const ReadOptions& /*options*/)
 {
   constexpr std::size_t WITH_COLOR = 6;
-  std::vector<double> coordinates;
-  std::vector<double> normals;
+  std::vector<double> coordinates, normals;
   ObjFaces faces;
   std::vector<float> colors;
   std::array<double, WITH_COLOR> numbers{};

@@ -76,9 +76,7 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
     for (side = SMALLEST; side < LARGEST && static_cast<double> (side) < wanted;)
       side *= 2;
   constexpr std::uint8_t GREY = 128;
-  ColourImage image;
-  image.width = image.height = side;
-  image.pixels.assign (side * side, {GREY, GREY, GREY});
+  ColourImage image{side, side, {side * side, ColourImage::Pixel{GREY, GREY, GREY}}};
   std::vector<std::uint8_t> is_painted (side * side, 0);
   const FieldTriple fields = colorFields (cloud);
   const auto length = static_cast<double> (side);

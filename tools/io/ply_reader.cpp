@@ -85,10 +85,8 @@ readPlyHeader (TextScanner& scanner)
       has_format = true;
     }
     else if (key == "element") {
-      Element element;
-      element.name = std::string (scanner.word ());
-      element.count = scanner.number<std::size_t> ();
-      header.elements.push_back (std::move (element));
+      const std::string name (scanner.word ());
+      header.elements.push_back ({name, scanner.number<std::size_t> (), {}});
     }
     else if (key == "property") {
       if (header.elements.empty ())

@@ -111,16 +111,6 @@ meanNormal (const PictureMesh& mesh)
   return (volume < 0.0 && sum.norm () < SHEET * area ? -1.0 : 1.0) / area * sum;
 }
 
-inline Eigen::Vector3d
-axisOfLeastVariance (const std::vector<Eigen::Vector3d>& points)
-{
-  const auto columns = asColumns (points);
-  const Eigen::Matrix3Xd around = columns.colwise () - columns.rowwise ().mean ();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (around * around.transpose ());
-  const Eigen::Vector3d axis = solver.eigenvectors ().col (0);
-  return axis.sum () < 0.0 ? Eigen::Vector3d (-axis) : axis;
-}
-
 inline Camera
 lookAlong (const View& view)
 {
@@ -141,7 +131,11 @@ chooseView (const PictureMesh& mesh)
   const Eigen::Vector3d normal = meanNormal (mesh);
   Eigen::Vector3d facing = normal.normalized (), up = Eigen::Vector3d::UnitY ();
   if (normal.norm () <= ONE_SIDED) {
-    facing = axisOfLeastVariance (mesh.points);
+    const auto points = asColumns (mesh.points);
+    const Eigen::Matrix3Xd around = points.colwise () - points.rowwise ().mean ();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (around * around.transpose ());
+    facing = solver.eigenvectors ().col (0); // the axis of least variance
+    facing *= facing.sum () < 0.0 ? -1.0 : 1.0;
     if (normal.norm () > CLOSED)
       up = normal.normalized ();
   }

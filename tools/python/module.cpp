@@ -164,23 +164,6 @@ arrayOf (const std::shared_ptr<const void>& owner, const std::vector<T>& values)
   }
 }
 
-/// The arrays by the names of the report, and "triangles" and "parameters". The indices of the core
-/// are unsigned, and here signed: every cloud index is below 2^31.
-py::dict
-arraysOfResult (const std::shared_ptr<const Result>& result)
-{
-  const Report& report = result->report;
-  return py::dict (
-      "triangles"_a = arrayOf (result, result->triangles), "loop"_a = arrayOf (result, report.loop),
-      "unused"_a = arrayOf (result, report.unused),
-      "outliers"_a = arrayOf (result, report.outliers),
-      "scatter"_a = arrayOf (result, report.scatter),
-      "non_finite"_a = arrayOf (result, report.non_finite),
-      "duplicates"_a = arrayOf (result, report.duplicates),
-      "parameters"_a = report.parameters.empty () ? py::none ()
-                                                  : py::cast (arrayOf (result, report.parameters)));
-}
-
 py::object
 toPython (const nlohmann::ordered_json& json)
 {
@@ -243,8 +226,19 @@ run (const py::buffer& points, const py::object& normals, const py::object& sens
   known.update (resultJson (report));
   known["seconds"] = secondsJson (report.statistics);
   known["seconds"]["reconstruction"] = seconds;
+  // By the names of the report. The indices of the core are unsigned, and here signed: every cloud
+  // index is below 2^31.
+  const py::dict arrays (
+      "triangles"_a = arrayOf (result, result->triangles), "loop"_a = arrayOf (result, report.loop),
+      "unused"_a = arrayOf (result, report.unused),
+      "outliers"_a = arrayOf (result, report.outliers),
+      "scatter"_a = arrayOf (result, report.scatter),
+      "non_finite"_a = arrayOf (result, report.non_finite),
+      "duplicates"_a = arrayOf (result, report.duplicates),
+      "parameters"_a = report.parameters.empty () ? py::none ()
+                                                  : py::cast (arrayOf (result, report.parameters)));
   return py::make_tuple (statusName (report.status), report.message, objectionTo (report),
-                         report.warnings, toPython (known), arraysOfResult (result));
+                         report.warnings, toPython (known), arrays);
 }
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;

@@ -144,19 +144,16 @@ void
 warnOfUnpublished (const CLI::App& app, const Options& given, const Options& effective,
                    std::vector<std::string>& warnings)
 {
-  std::string names;
-  std::size_t count = 0;
+  Words names;
   const OptionValues before (given), after (effective);
-  for (std::size_t i = 0; i < before.rows.size (); ++i) {
-    const std::string name = toolName (before.rows[i].name);
-    if (before.values[i] != after.values[i] && app.count (name) > 0) {
-      names += (count == 0 ? "" : ", ") + name;
-      ++count;
-    }
-  }
-  if (count > 0)
-    warnings.push_back ((count == 1 ? "an option has no effect: " : "options have no effect: ") +
-                        names + "; --method tw385 is that report and nothing else");
+  for (std::size_t i = 0; i < before.rows.size (); ++i)
+    if (const std::string name = toolName (before.rows[i].name);
+        before.values[i] != after.values[i] && app.count (name) > 0)
+      names.push_back (name);
+  if (!names.empty ())
+    warnings.push_back (
+        (names.size () == 1 ? "an option has no effect: " : "options have no effect: ") +
+        boost::join (names, ", ") + "; --method tw385 is that report and nothing else");
 }
 
 bool

@@ -36,7 +36,7 @@ readLoop (const std::filesystem::path& path)
 
 /// Shows the current step on the standard error stream if that is a terminal that can erase a line.
 /// The line is erased at the end.
-class Progress
+class Progress : private boost::noncopyable
 {
 public:
   explicit Progress (bool wanted)
@@ -46,8 +46,6 @@ public:
                 *terminal != '\0' && std::string (terminal) != "dumb";
   }
   ~Progress () { show (""); }
-  Progress (const Progress&) = delete;
-  Progress& operator= (const Progress&) = delete;
 
   void show (const std::string& step)
   {
@@ -68,8 +66,7 @@ reconstructInput (Input input, Options options, Progress& progress)
 {
   const auto start = std::chrono::steady_clock::now ();
   std::string name;
-  constexpr std::size_t LARGE = std::size_t{1}
-                                << 19U; // memory is worth more than time from here on
+  constexpr std::size_t LARGE = 1U << 19U; // memory is worth more than time from here on
   const bool is_large = input.positions.size () > LARGE;
   options.stage_callback = [&name, is_large] (Stage stage) {
     name = stageName (stage);
@@ -185,11 +182,13 @@ void
 stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run,
               OutputFiles& files)
 {
+  std::vector<std::string>& warnings = result.report.warnings;
   const auto stage = [&] (const std::filesystem::path& path, const Cloud& vertices,
                           const Triangles& triangles, MeshFormat format,
                           const TextureCoordinates* texture = nullptr) {
-    for (std::string& loss : writeMesh (path, vertices, triangles, format, files, texture))
-      result.report.warnings.push_back (std::move (loss));
+    const std::vector<std::string> losses =
+        writeMesh (path, vertices, triangles, format, files, texture);
+    warnings.insert (warnings.end (), losses.begin (), losses.end ());
   };
   cloud.left_out.resize (cloud.rows, false);
   for (const std::uint32_t row : result.report.non_finite) // finite: pixels without a return
@@ -201,9 +200,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     stage (line.parameterization, flat, triangles, meshFormatOf (line.parameterization));
   }
   if (const std::size_t removed = removeNonFinitePoints (cloud, result.triangles))
-    result.report.warnings.push_back (counted (removed, "point") + " without finite coordinates " +
-                                      (removed == 1 ? "was" : "were") +
-                                      " left out of the output; the vertices behind moved up");
+    warnings.push_back (counted (removed, "point") + " without finite coordinates " +
+                        (removed == 1 ? "was" : "were") +
+                        " left out of the output; the vertices behind moved up");
   run.vertices = cloud.size ();
   if (line.texture_coordinates) {
     for (std::uint32_t& point : run.texture.points)
@@ -217,7 +216,7 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
   stage (line.output, cloud, result.triangles, line.meshFormat (),
          line.texture_coordinates ? &run.texture : nullptr);
   if (cloud.file.hasChanged ())
-    result.report.warnings.emplace_back (
+    warnings.emplace_back (
         "the input file changed while it was in use, so that the mesh may mix old and new points; "
         "run again on a file that does not change");
 }
@@ -269,12 +268,9 @@ run (CommandLine line)
   cloud.single_precision = writesSingle (line, result.triangles, cloud);
   figures.writes_single = cloud.single_precision;
   Report& report = result.report;
-  report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
-  report.warnings.insert (report.warnings.begin (), cloud.warnings.begin (), cloud.warnings.end ());
+  completeReport (line, cloud.warnings, report);
   if (report.status == RunStatus::SUCCESS && !cloud.projection.empty ())
     report.verdict = {Quality::POOR, DEGREES, cloud.projection};
-  reportMemory (line, report);
-
   if (line.texture_coordinates) {
     progress.show ("texture");
     start = std::chrono::steady_clock::now ();

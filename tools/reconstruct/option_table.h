@@ -8,6 +8,7 @@
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
+#include <boost/algorithm/string/join.hpp>
 
 #include <sstream>
 
@@ -44,12 +45,11 @@ CLI::Option*
 addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<Enum, N>& choices,
            const std::string& description)
 {
-  std::string words;
   std::vector<std::string> known;
-  for (const auto& choice : choices) {
-    words += (words.empty () ? "" : ", ") + std::string (choice.first);
+  known.reserve (N);
+  for (const auto& choice : choices)
     known.emplace_back (choice.first);
-  }
+  const std::string words = boost::join (known, ", ");
   const auto choose = [&value, choices, words, known] (const std::string& word) -> std::string {
     for (const auto& choice : choices)
       if (word == choice.first) {

@@ -189,8 +189,8 @@ peakMemory ()
 {
   constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
   rusage usage{};
-  return ::getrusage (RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t> (usage.ru_maxrss) * UNIT
-                                                : 0;
+  ::getrusage (RUSAGE_SELF, &usage);
+  return static_cast<std::size_t> (usage.ru_maxrss) * UNIT;
 }
 
 nlohmann::ordered_json
@@ -258,8 +258,10 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
 }
 
 void
-reportMemory (const CommandLine& line, Report& report)
+completeReport (const CommandLine& line, const std::vector<std::string>& of_input, Report& report)
 {
+  report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
+  report.warnings.insert (report.warnings.begin (), of_input.begin (), of_input.end ());
   if (const std::string failure = scratchFailure ();
       report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
     report.message = failure;

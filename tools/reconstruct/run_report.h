@@ -40,9 +40,10 @@ secondsSince (std::chrono::steady_clock::time_point start)
 std::size_t
 peakMemory ();
 
-/// Adds to the report what went wrong with the memory limit and the scratch folder.
+/// Adds to the report the warnings on the input, those on options, and what went wrong with the memory
+/// limit and the scratch folder.
 void
-reportMemory (const CommandLine& line, Report& report);
+completeReport (const CommandLine& line, const std::vector<std::string>& of_input, Report& report);
 
 nlohmann::ordered_json
 reportJson (const CommandLine& command_line, const Report& report, const RunFigures& run);
