@@ -78,34 +78,6 @@ addSteps (CLI::App& app, Job& job)
 }
 
 void
-addGeneral (CLI::App& app, Job& job)
-{
-  beginGroup (app, option_group::GENERAL);
-  addNumber (
-      app, "-j,--threads", job.line.options.threads,
-      "threads of each process for its blocks, 0: one for each core; the result is the same");
-  addNumber (
-      app, "--join-threads", job.join_threads,
-      "threads of the steps of the whole cloud, 0: one for each core; the result is the same");
-  addLimitAndCoordinates (app, job.line);
-  app.add_flag ("-q,--quiet", job.line.quiet, "print errors only");
-}
-
-void
-addFiles (CLI::App& app, std::vector<std::string>& files, Job& job)
-{
-  app.add_option ("FILES", files,
-                  std::string ("point clouds: ") + CLOUD_EXTENSIONS +
-                      "; then the mesh to write: " + MESH_EXTENSIONS + "; with --tiles a folder")
-      ->option_text (" ");
-  beginGroup (app, "More output");
-  app.add_flag ("--tiles", job.writes_tiles,
-                "write the mesh as a folder of .ply files: one for each file of points, or of a "
-                "single one for each block; and tiles.json, which tells what they share");
-  addOutputs (app, job.line);
-}
-
-void
 takeFiles (const std::vector<std::string>& files, Job& job)
 {
   if (files.size () < 2)
@@ -143,13 +115,29 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
   std::vector<std::string> files;
   prepareApp (app, DESCRIPTION, FOOTER);
   addSteps (app, job);
-  addGeneral (app, job);
+  beginGroup (app, option_group::GENERAL);
+  addNumber (
+      app, "-j,--threads", job.line.options.threads,
+      "threads of each process for its blocks, 0: one for each core; the result is the same");
+  addNumber (
+      app, "--join-threads", job.join_threads,
+      "threads of the steps of the whole cloud, 0: one for each core; the result is the same");
+  addLimitAndCoordinates (app, job.line);
+  app.add_flag ("-q,--quiet", job.line.quiet, "print errors only");
   addTableOptions (app, job.line, [] (const OptionRow& row) {
     const std::string name = row.name;
     return row.group == std::string (option_group::SURFACE) || name == "neighbors" ||
            name == "sheet_filter";
   });
-  addFiles (app, files, job);
+  app.add_option ("FILES", files,
+                  std::string ("point clouds: ") + CLOUD_EXTENSIONS +
+                      "; then the mesh to write: " + MESH_EXTENSIONS + "; with --tiles a folder")
+      ->option_text (" ");
+  beginGroup (app, "More output");
+  app.add_flag ("--tiles", job.writes_tiles,
+                "write the mesh as a folder of .ply files: one for each file of points, or of a "
+                "single one for each block; and tiles.json, which tells what they share");
+  addOutputs (app, job.line);
   if (const std::optional<int> done = parseArguments (app, arguments))
     return done;
   job.has_block = app.count ("--block") > 0;
@@ -158,8 +146,7 @@ parseJob (const std::vector<std::string>& arguments, Job& job)
     throw UsageError ("--work: the name has a line break in it; choose another one");
   if (job.work.empty ())
     throw UsageError ("--work is missing: name a folder for what is known between the steps");
-  if (const Problem problem = checkOptions (job.line.options))
-    throw UsageError (rangeMessage (app, problem));
+  requireOptions (app, job.line.options);
   if (job.prints_steps && job.step != nullptr)
     throw UsageError ("--print-steps and --step exclude each other");
   if ((job.step != nullptr && job.step->of_block != nullptr) != job.has_block)

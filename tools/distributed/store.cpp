@@ -115,12 +115,6 @@ WorkFile::read (std::uint64_t offset, std::size_t count, void* bytes) const
   }
 }
 
-void
-WorkFile::refuse (const std::string& cause) const
-{
-  throw WorkError ("'" + path_ + "' " + cause);
-}
-
 ArrayFile::ArrayFile (WorkFile file, std::uint64_t plan) : file_ (std::move (file))
 {
   Head head{};
@@ -156,15 +150,6 @@ ArrayFile::ArrayFile (WorkFile file, std::uint64_t plan) : file_ (std::move (fil
              withChecksums (entry.element * entry.count) <= head.size - entry.offset);
 }
 
-const ArrayEntry&
-ArrayFile::find (const std::string& array) const
-{
-  for (const ArrayEntry& known : table_)
-    if (array == known.name.data ())
-      return known;
-  file_.refuse ("has no array '" + array + "'; delete it and run again");
-}
-
 void
 ArrayFile::readPiece (const ArrayEntry& array, std::uint64_t begin)
 {
@@ -193,13 +178,6 @@ ArrayFile::readBytes (const ArrayEntry& array, std::size_t first, std::size_t la
     if (bytes != nullptr)
       bytes = std::copy_n (piece_.data () + (at - begin), count, bytes);
   }
-}
-
-void
-ArrayFile::verify ()
-{
-  for (const ArrayEntry& array : table_)
-    readBytes (array, 0, array.count, nullptr);
 }
 
 } // namespace pcl::floater

@@ -47,10 +47,7 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
 constexpr std::uint32_t WORK_FORMAT = 13;
 
 /// A file of a work folder cannot be used. The message names it, the cause, and what to do.
-struct WorkError : ToolError
-{
-  explicit WorkError (const std::string& message) : ToolError (EXIT_WORK, message) {}
-};
+using WorkError = ErrorOf<EXIT_WORK>;
 
 /// A file of the work folder, open to be read. Others must not be able to write it: it is a file of this
 /// user, writable by nobody else, and no symbolic link.
@@ -75,7 +72,10 @@ public:
   }
 
   /// \throws WorkError which names the file and this cause
-  [[noreturn]] void refuse (const std::string& cause) const;
+  [[noreturn]] void refuse (const std::string& cause) const
+  {
+    throw WorkError ("'" + path_ + "' " + cause);
+  }
 
 private:
   std::string path_;
@@ -142,7 +142,11 @@ public:
 
   /// Reads all of the file.
   /// \throws WorkError if anything is damaged
-  void verify ();
+  void verify ()
+  {
+    for (const ArrayEntry& array : table_)
+      readBytes (array, 0, array.count, nullptr);
+  }
 
   /// \throws WorkError if the arrays of the file do not fit each other, though its checksums are
   ///   right
@@ -163,7 +167,13 @@ public:
   }
 
 private:
-  const ArrayEntry& find (const std::string& array) const;
+  const ArrayEntry& find (const std::string& array) const
+  {
+    for (const ArrayEntry& known : table_)
+      if (array == known.name.data ())
+        return known;
+    file_.refuse ("has no array '" + array + "'; delete it and run again");
+  }
   void readPiece (const ArrayEntry& array, std::uint64_t begin);
   /// \param bytes nullptr: the values are only compared with their checksums
   void readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes);

@@ -12,10 +12,7 @@
 
 namespace pcl::floater {
 /// A file cannot be written. The message names the file and the cause.
-struct WriteError : ToolError
-{
-  explicit WriteError (const std::string& message) : ToolError (EXIT_OUTPUT, message) {}
-};
+using WriteError = ErrorOf<EXIT_OUTPUT>;
 
 /// Checks, without changing anything, that a file could be created or replaced.
 /// \throws WriteError if its folder does not exist or is not writable, or if the path names

@@ -4,7 +4,6 @@
 
 #include "text_scanner.h"
 
-#include <limits>
 #include <map>
 #include <set>
 
@@ -41,17 +40,6 @@ byteOf (const Field& field, std::size_t place, const std::string& name)
 {
   const std::size_t at = field.order == ByteOrder::little ? place : sizeOf (field.type) - 1 - place;
   return {name, ScalarType::UINT8, 1, {field.first, field.first.get () + at}, field.stride};
-}
-
-/// PCL packs a colour into the 32 bits of one number, from the highest: alpha, red, green, blue.
-void
-unpackColor (const Field& packed, bool with_alpha, std::vector<Field>& fields)
-{
-  fields.push_back (byteOf (packed, 2, "red"));
-  fields.push_back (byteOf (packed, 1, "green"));
-  fields.push_back (byteOf (packed, 0, "blue"));
-  if (with_alpha)
-    fields.push_back (byteOf (packed, 3, "alpha"));
 }
 
 /// A name for the second and each further field of the same name, or of that of a coordinate.
@@ -171,6 +159,9 @@ makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string>
     cloud.coordinates[axis] = fields[columns[axis]];
     cloud.single_precision &= fields[columns[axis]].type == ScalarType::FLOAT32;
   }
+  // PCL packs a colour into the 32 bits of one number, from the highest: alpha, red, green, blue.
+  const std::array<std::pair<const char*, std::size_t>, 4> channels{
+      {{"red", 2}, {"green", 1}, {"blue", 0}, {"alpha", 3}}};
   bool has_packed_color = false;
   for (std::size_t f = 0; f < fields.size (); ++f) {
     if (std::find (columns.begin (), columns.end (), f) != columns.end ())
@@ -180,8 +171,9 @@ makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string>
       if (has_packed_color)
         cloud.warnings.push_back ("the points have their colour twice: the field '" +
                                   fields[f].name + "' was left out");
-      else
-        unpackColor (fields[f], fields[f].name == "rgba", cloud.fields);
+      for (const auto& [channel, place] : channels)
+        if (!has_packed_color && (place < 3 || fields[f].name == "rgba"))
+          cloud.fields.push_back (byteOf (fields[f], place, channel));
       has_packed_color = true;
       continue;
     }
@@ -192,15 +184,6 @@ makeCloud (std::vector<Field> fields, std::size_t size, std::vector<std::string>
   renameRepeated (cloud);
   narrowColors (cloud);
   return cloud;
-}
-
-std::vector<Eigen::Vector3d>
-Cloud::positions () const
-{
-  std::vector<Eigen::Vector3d> result (size ());
-  for (std::size_t i = 0; i < result.size (); ++i)
-    result[i] = position (i);
-  return result;
 }
 
 std::string
@@ -218,19 +201,6 @@ Cloud::shiftText () const
     text += (text.empty () ? "" : " ") + std::string (digits.data (), end);
   }
   return text;
-}
-
-void
-leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what)
-{
-  const auto count = static_cast<std::size_t> (std::count (rows.begin (), rows.end (), true));
-  if (count == 0)
-    return;
-  cloud.notes.push_back (counted (count, "point") + " " + what + (count == 1 ? " was" : " were") +
-                         " left out");
-  cloud.left_out.resize (cloud.rows, false);
-  for (std::size_t row = 0; row < cloud.rows; ++row)
-    cloud.left_out[row] = cloud.left_out[row] || rows[row];
 }
 
 std::size_t
@@ -258,22 +228,6 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles)
     return std::find (triangle.begin (), triangle.end (), REMOVED) != triangle.end ();
   });
   return not_finite;
-}
-
-std::vector<std::uint32_t>
-takeUsed (std::size_t points, Triangles& triangles)
-{
-  constexpr std::uint32_t UNUSED = std::numeric_limits<std::uint32_t>::max ();
-  std::vector<std::uint32_t> place (points, UNUSED), used;
-  for (auto& triangle : triangles)
-    for (std::uint32_t& corner : triangle) {
-      if (place[corner] == UNUSED) {
-        place[corner] = static_cast<std::uint32_t> (used.size ());
-        used.push_back (corner);
-      }
-      corner = place[corner];
-    }
-  return used;
 }
 
 Cloud

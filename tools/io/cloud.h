@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -243,7 +244,13 @@ struct Cloud
 
   bool isLeftOut (std::size_t row) const { return !left_out.empty () && left_out[row]; }
 
-  std::vector<Eigen::Vector3d> positions () const;
+  std::vector<Eigen::Vector3d> positions () const
+  {
+    std::vector<Eigen::Vector3d> result (size ());
+    for (std::size_t i = 0; i < result.size (); ++i)
+      result[i] = position (i);
+    return result;
+  }
 
   /// The shift, "500000 5500000 0"; empty if there is none.
   std::string shiftText () const;
@@ -341,8 +348,18 @@ facesLeftOut (std::size_t faces)
 
 /// Leaves rows out of the mesh and of its file, with a note that counts them; the numbers of all
 /// points stay until that is written.
-void
-leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what);
+inline void
+leaveOut (Cloud& cloud, const std::vector<bool>& rows, const std::string& what)
+{
+  const auto count = static_cast<std::size_t> (std::count (rows.begin (), rows.end (), true));
+  if (count == 0)
+    return;
+  cloud.notes.push_back (counted (count, "point") + " " + what + (count == 1 ? " was" : " were") +
+                         " left out");
+  cloud.left_out.resize (cloud.rows, false);
+  for (std::size_t row = 0; row < cloud.rows; ++row)
+    cloud.left_out[row] = cloud.left_out[row] || rows[row];
+}
 
 /// Takes the rows that were left out, and points with a NaN or infinite coordinate, out of the
 /// cloud, and renumbers the triangles; those that use such a point are removed. No values are moved
@@ -353,8 +370,21 @@ removeNonFinitePoints (Cloud& cloud, Triangles& triangles);
 
 /// The points that triangles use, in the order in which they come first; the triangles are renumbered
 /// by their places in it.
-std::vector<std::uint32_t>
-takeUsed (std::size_t points, Triangles& triangles);
+inline std::vector<std::uint32_t>
+takeUsed (std::size_t points, Triangles& triangles)
+{
+  constexpr std::uint32_t UNUSED = std::numeric_limits<std::uint32_t>::max ();
+  std::vector<std::uint32_t> place (points, UNUSED), used;
+  for (auto& triangle : triangles)
+    for (std::uint32_t& corner : triangle) {
+      if (place[corner] == UNUSED) {
+        place[corner] = static_cast<std::uint32_t> (used.size ());
+        used.push_back (corner);
+      }
+      corner = place[corner];
+    }
+  return used;
+}
 
 /// Adds fields like addColumns, in place of those that have their names.
 template <typename Values>

@@ -9,16 +9,7 @@
 
 namespace pcl::floater {
 CloudFormat
-cloudFormatOf (const std::filesystem::path& path)
-{
-  for (const char* text : {".txt", ".csv", ".asc", ".pwn"})
-    if (lowerExtension (path) == text)
-      return parseXyz;
-  return formatOf (path, CLOUD_FORMATS);
-}
-
-void
-requireReadable (const std::filesystem::path& path)
+requireCloudFormat (const std::filesystem::path& path, const char* advice)
 {
   const std::string extension = lowerExtension (path);
   if (extension == ".laz")
@@ -26,6 +17,9 @@ requireReadable (const std::filesystem::path& path)
   if (extension == ".e57")
     throw ReadError ("it is an E57 file, which cannot be read; convert it: pdal translate a.e57 "
                      "a.las, or CloudCompare -SILENT -O a.e57 -C_EXPORT_FMT PLY -SAVE_CLOUDS");
+  if (const CloudFormat format = cloudFormatOf (path))
+    return format;
+  throw ReadError (unknownExtension (path) + "; use " + CLOUD_EXTENSIONS + advice);
 }
 
 namespace {
@@ -81,12 +75,7 @@ Cloud
 readCloud (const std::filesystem::path& path, const ReadOptions& options, CloudFormat format)
 {
   if (format == nullptr)
-    format = cloudFormatOf (path);
-  if (format == nullptr) {
-    requireReadable (path);
-    throw ReadError ("its extension '" + lowerExtension (path) + "' is unknown; use " +
-                     CLOUD_EXTENSIONS);
-  }
+    format = requireCloudFormat (path);
   const FileBytes file (path);
   if (file.view ().empty ())
     throw ReadError (isStandardStream (path) ? "nothing came from the standard input"

@@ -69,11 +69,6 @@ constexpr const char* CLOUD_EXTENSIONS =
 constexpr const char* LAZ_ADVICE = "it is compressed (LAZ), which cannot be read; decompress it: "
                                    "laszip -i a.laz -o a.las, or pdal translate a.laz a.las";
 
-/// \throws ReadError if the extension is that of a known format that is not read, with the command
-/// that converts it
-void
-requireReadable (const std::filesystem::path& path);
-
 struct ReadOptions
 {
   /// read the coordinates of text files as doubles, also where the file says float;
@@ -127,8 +122,20 @@ constexpr std::array<std::pair<const char*, CloudFormat>, 12> CLOUD_FORMATS{{{"a
                                                                              {"pts", parsePts}}};
 
 /// The format that the extension of a file tells, in upper or lower case; nullptr if it is unknown.
+inline CloudFormat
+cloudFormatOf (const std::filesystem::path& path)
+{
+  for (const char* text : {".txt", ".csv", ".asc", ".pwn"})
+    if (lowerExtension (path) == text)
+      return parseXyz;
+  return formatOf (path, CLOUD_FORMATS);
+}
+
+/// The same.
+/// \param advice what else to do if the format is unknown
+/// \throws ReadError if it is; of formats that are not read, with the command that converts them
 CloudFormat
-cloudFormatOf (const std::filesystem::path& path);
+requireCloudFormat (const std::filesystem::path& path, const char* advice = "");
 
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input

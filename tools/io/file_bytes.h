@@ -41,11 +41,14 @@ struct ToolError : std::runtime_error
   int code;
 };
 
-/// A file cannot be used as input. The message names the cause, not the file.
-struct ReadError : ToolError
+template <ExitCode CODE>
+struct ErrorOf : ToolError
 {
-  explicit ReadError (const std::string& message) : ToolError (EXIT_INPUT, message) {}
+  explicit ErrorOf (const std::string& message) : ToolError (CODE, message) {}
 };
+
+/// A file cannot be used as input. The message names the cause, not the file.
+using ReadError = ErrorOf<EXIT_INPUT>;
 
 using ByteOrder = boost::endian::order; ///< little, big, or native: that of this machine
 

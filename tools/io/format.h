@@ -42,6 +42,15 @@ formatOf (const std::filesystem::path& path,
   return {};
 }
 
+/// What is wrong with the name of a file whose format is unknown.
+inline std::string
+unknownExtension (const std::filesystem::path& path)
+{
+  const std::string extension = lowerExtension (path);
+  return extension.empty () ? "it has no extension that tells its format"
+                            : "its extension '" + extension + "' is unknown";
+}
+
 /// Whether "-" stands in place of a file: for the standard input, or the standard output.
 inline bool
 isStandardStream (const std::filesystem::path& path)

@@ -289,20 +289,6 @@ writePly (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   }
 }
 
-std::size_t
-countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
-{
-  const auto corner = [&cloud] (std::uint32_t point) -> Eigen::Vector3f {
-    return cloud.position (point).cast<float> ();
-  };
-  return static_cast<std::size_t> (
-      std::count_if (triangles.begin (), triangles.end (), [&] (const auto& triangle) {
-        const Eigen::Vector3f a = corner (triangle[0]), b = corner (triangle[1]),
-                              c = corner (triangle[2]);
-        return a == b || b == c || c == a;
-      }));
-}
-
 std::vector<std::string>
 writeMesh (const std::filesystem::path& path, const Cloud& cloud, const Triangles& triangles,
            MeshFormat format, OutputFiles& files, const TextureCoordinates* texture)

@@ -64,7 +64,18 @@ writeNumbers (AtomicFile& file, const Numbers& numbers)
 }
 
 /// Number of triangles of which 32-bit floats make two corners one: readers may merge those.
-std::size_t
-countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles);
+inline std::size_t
+countMergedInSinglePrecision (const Cloud& cloud, const Triangles& triangles)
+{
+  std::size_t count = 0;
+  for (const auto& triangle : triangles) {
+    std::array<Eigen::Vector3f, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = cloud.position (triangle[i]).cast<float> ();
+    const auto& [a, b, c] = corners;
+    count += a == b || b == c || c == a ? 1 : 0;
+  }
+  return count;
+}
 
 } // namespace pcl::floater

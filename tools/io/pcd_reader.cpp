@@ -165,17 +165,6 @@ readAscii (TextScanner& scanner, PcdHeader& header)
   return scanner.nextFilledLine ();
 }
 
-bool
-readBinary (const FileBytes& file, std::size_t begin, PcdHeader& header)
-{
-  const std::size_t stride = rowBytes (pointersTo (header.fields));
-  requireRoom ("points", header.points, stride, file.view ().size () - begin);
-  viewRows (pointersTo (header.fields), file.at (begin), ByteOrder::little);
-  // PCL's writer fills the last block of the disk with zeros.
-  const std::string_view rest = file.view ().substr (begin + header.points * stride);
-  return rest.find_first_not_of ('\0') != std::string_view::npos;
-}
-
 /// Two 32-bit numbers, the compressed and the uncompressed size, then all values field by field,
 /// compressed with LZF.
 void
@@ -226,8 +215,15 @@ parsePcd (const FileBytes& file, const ReadOptions& options)
       options.all_digits && header.data == "ascii" && widenCoordinates (fieldsToKeep (header));
   if (header.data == "ascii")
     has_more = readAscii (scanner, header);
-  else if (header.data == "binary")
-    has_more = readBinary (file, file.view ().size () - scanner.rest ().size (), header);
+  else if (header.data == "binary") {
+    const std::vector<Field*> fields = pointersTo (header.fields);
+    const std::string_view rest = scanner.rest ();
+    requireRoom ("points", header.points, rowBytes (fields), rest.size ());
+    viewRows (fields, file.at (file.view ().size () - rest.size ()), ByteOrder::little);
+    // PCL's writer fills the last block of the disk with zeros.
+    has_more =
+        rest.find_first_not_of ('\0', header.points * rowBytes (fields)) != std::string_view::npos;
+  }
   else if (header.data == "binary_compressed")
     readCompressed (scanner.rest (), header);
   else

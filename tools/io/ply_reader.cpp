@@ -116,15 +116,6 @@ fieldsOf (Element& element)
   return fields;
 }
 
-std::size_t
-fewestBytes (const Element& element, bool is_ascii)
-{
-  std::size_t fewest = 0;
-  for (const Property& property : element.properties)
-    fewest += is_ascii ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
-  return fewest;
-}
-
 /// Reads the elements of a file, one after the other.
 class PlyElements
 {
@@ -142,8 +133,12 @@ public:
   /// \param triangles get the faces; may be nullptr
   void read (Element& element, bool keep, std::size_t points, Triangles* triangles)
   {
+    std::size_t fewest = 0; // bytes of each
+    for (const Property& property : element.properties)
+      fewest +=
+          !order_ ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
     // The last line of a text may end without a newline.
-    requireRoom (element.what (), element.count, fewestBytes (element, !order_),
+    requireRoom (element.what (), element.count, fewest,
                  order_ ? rest_.size () : scanner_.rest ().size () + 1);
     const std::vector<Field*> fields = fieldsOf (element);
     if (order_ && fields.size () == element.properties.size ()) {

@@ -165,30 +165,25 @@ isCalled (std::string_view name, std::string_view known)
                              (known.size () >= LONG && name.substr (0, known.size ()) == known));
 }
 
-/// A column of this name, which is compared in lower case and without a unit: "X [m]" is "x".
-inline Column
-columnOf (std::string_view text)
-{
-  Column column;
-  column.name = trim (text.substr (0, text.find_first_of ("[(")));
-  for (char& c : column.name)
-    c = TextScanner::isBlank (c) ? '_' : lowerCase (c);
-  constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
-  if (column.name.rfind (SCALAR, 0) == 0)
-    column.name.erase (0, SCALAR.size ());
-  return column;
-}
-
-/// Columns that a header names: "x,y,z,red,green,blue", "//X Y Z R G B".
+/// Columns that a header names: "x,y,z,red,green,blue", "//X Y Z R G B". The names are compared in
+/// lower case and without a unit: "X [m]" is "x".
 inline std::vector<Column>
 columnsOfHeader (std::string_view line, char separator)
 {
+  constexpr std::string_view SCALAR = "scalar_"; // what CloudCompare puts before its fields
   Words words;
   std::vector<Column> columns;
   splitColumns (line, separator, words);
-  for (const std::string_view text : words)
-    if (text.empty () || text.back () != ':') // "columns: x y z"
-      columns.push_back (columnOf (text));
+  for (const std::string_view text : words) {
+    if (!text.empty () && text.back () == ':') // "columns: x y z"
+      continue;
+    std::string& name = columns.emplace_back ().name;
+    name = trim (text.substr (0, text.find_first_of ("[(")));
+    for (char& c : name)
+      c = TextScanner::isBlank (c) ? '_' : lowerCase (c);
+    if (name.rfind (SCALAR, 0) == 0)
+      name.erase (0, SCALAR.size ());
+  }
   // One of each kind, the first of those with the best name; others are fields like any other.
   std::array<bool, OTHER> has{};
   for (std::size_t kind = 0; kind < OTHER; ++kind)

@@ -3,7 +3,6 @@
 #include "command_line.h"
 
 #include "option_table.h"
-#include "options/check_options.h"
 #include "scratch_arrays.h"
 
 #include <cstdio>
@@ -169,14 +168,6 @@ areSame (const std::filesystem::path& a, const std::filesystem::path& b)
   return full (a) == full (b);
 }
 
-std::string
-unknownExtension (const std::filesystem::path& path)
-{
-  const std::string extension = lowerExtension (path);
-  return extension.empty () ? "it has no extension that tells its format"
-                            : "its extension '" + extension + "' is unknown";
-}
-
 } // namespace
 
 int
@@ -246,15 +237,6 @@ parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
   }
 }
 
-std::string
-rangeMessage (const CLI::App& app, const Problem& problem)
-{
-  const std::string name = toolName (problem.option);
-  return problem.option.empty () || app.get_option_no_throw (name) == nullptr
-             ? problem.message
-             : name + problem.message.substr (problem.option.size ());
-}
-
 std::optional<int>
 parseCommandLine (int argc, char** argv, CommandLine& command_line)
 {
@@ -281,8 +263,7 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
     throw UsageError ("--loop and --parameterization are for a disc, not for --topology surface");
   if (needs_disc)
     topology = Topology::DISC;
-  if (const Problem problem = checkOptions (command_line.options))
-    throw UsageError (rangeMessage (app, problem));
+  requireOptions (app, command_line.options);
   command_line.texture_coordinates =
       command_line.texture_coordinates || !command_line.texture.empty ();
   checkTextureOptions (command_line);
@@ -293,14 +274,11 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
 void
 checkPaths (const CommandLine& line)
 {
-  if (line.cloudFormat () == nullptr) {
-    if (isStandardStream (line.input))
-      throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
-                        "--input-format pcd");
-    requireReadable (line.input);
-    throw ReadError (unknownExtension (line.input) + "; use " + CLOUD_EXTENSIONS +
-                     ", or give its format by --input-format");
-  }
+  if (line.input_format == nullptr && isStandardStream (line.input))
+    throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
+                      "--input-format pcd");
+  if (line.input_format == nullptr)
+    requireCloudFormat (line.input, ", or give its format by --input-format");
   // The first two are inputs.
   const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
       {{"INPUT", line.input},

@@ -9,10 +9,7 @@
 
 namespace pcl::floater {
 /// The command line is wrong, or asks for something impossible.
-struct UsageError : ToolError
-{
-  explicit UsageError (const std::string& message) : ToolError (EXIT_USAGE, message) {}
-};
+using UsageError = ErrorOf<EXIT_USAGE>;
 
 /// Calls work (), and makes an exit code of what it throws, which it prints.
 /// \param if_no_memory what to do where memory was not enough
@@ -59,11 +56,6 @@ struct CommandLine
   bool json = false;
   bool strict = false;                 ///< write no poor mesh, and none with points left out
   std::vector<std::string> warnings{}; ///< on options that have no effect, whatever the cloud is
-
-  CloudFormat cloudFormat () const
-  {
-    return input_format != nullptr ? input_format : cloudFormatOf (input);
-  }
 
   /// How the input is read: all digits of a text count if it is shifted.
   ReadOptions readOptions () const { return {auto_shift || shift, columns, classes}; }

@@ -24,8 +24,6 @@ parsePlace (const std::string& word)
 
 using option_group::GENERAL;
 
-const char* const OUTPUT_GROUP = "More output";
-
 const char* const DESCRIPTION =
     R"(Reconstructs a surface from unorganized points. The vertices of the mesh are the points of
 the cloud, in the same order and with all their fields. The surface may be open or closed,
@@ -113,81 +111,7 @@ struct TableOptions
   }
 };
 
-void
-addGeneral (CLI::App& app, CommandLine& line)
-{
-  addLimitAndCoordinates (app, line);
-  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line");
-  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json");
-  app.add_flag ("-v,--verbose", line.verbose,
-                "print all warnings, and the decisions that are not sure")
-      ->excludes ("--quiet");
-  app.add_flag ("--strict", line.strict,
-                "write no mesh if it is poor, or if points are in no triangle");
-}
-
-void
-addFiles (CLI::App& app, CommandLine& line)
-{
-  beginGroup (app, "Files");
-  addPath (app, "INPUT", line.input,
-           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", " ")
-      ->required ();
-  addPath (app, "OUTPUT", line.output,
-           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", " ")
-      ->required ();
-  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
-             "format of INPUT; auto: that of its extension; xyz: text with a point in each line");
-  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
-             "format of OUTPUT; auto: that of its extension");
-  addOutputs (app, line);
-  addPath (app, "--html", line.html,
-           "write the report as a page for a browser: figures, findings and the mesh, which turns");
-  addNumber (app, "--page-triangles", line.shown_triangles,
-             "most triangles that the page shows; in larger meshes, vertices are joined");
-  addPath (app, "--parameterization", line.parameterization,
-           "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc");
-  app.add_flag (
-      "--uv", line.texture_coordinates,
-      "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk");
-  addPath (app, "--texture", line.texture,
-           "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
-           "its .mtl");
-  app.add_option ("--texture-size", line.texture_size,
-                  "side of the texture in pixels, 16 to 16384; by default a power of two, two "
-                  "pixels for an edge")
-      ->option_text ("N")
-      ->check (CLI::Range (16, 16384));
-}
-
 } // namespace
-
-CLI::Option*
-addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
-           const std::string& kind)
-{
-  const auto take = [long_name = name.substr (name.find (',') + 1),
-                     parse] (const std::string& word) {
-    if (const std::string cause = parse (word); !cause.empty ())
-      throw CLI::ValidationError (long_name, "'" + word + "' " + cause);
-  };
-  return app.add_option_function<std::string> (name, take, text)->option_text (kind);
-}
-
-CLI::Option*
-addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
-         const std::string& description, const char* kind)
-{
-  const auto take = [&path] (const std::string& word) { path = word; };
-  return app.add_option_function<std::string> (name, take, description)->option_text (kind);
-}
-
-std::string
-toolName (std::string name)
-{
-  std::replace (name.begin (), name.end (), '_', '-');
-  return "--" + name;
-}
 
 void
 addTableOptions (CLI::App& app, CommandLine& line,
@@ -204,16 +128,6 @@ addTableOptions (CLI::App& app, CommandLine& line,
       "take the normals of the input for tangent planes, and, with --facing auto, for the front");
   if (app.get_option_no_throw ("--largest-hole") != nullptr)
     app.get_option ("--largest-hole")->excludes (app.get_option ("--largest-hole-length"));
-}
-
-void
-addOutputs (CLI::App& app, CommandLine& line)
-{
-  beginGroup (app, OUTPUT_GROUP);
-  app.add_flag (
-      "--normals", line.compute_normals,
-      "give the vertices normals, made from the triangles; those of the input are replaced");
-  addPath (app, "--report", line.report, "write a report on the run as JSON");
 }
 
 void
@@ -281,26 +195,47 @@ addOptions (CLI::App& app, CommandLine& line)
 {
   prepareApp (app, DESCRIPTION, FOOTER);
   addTableOptions (app, line, [] (const OptionRow&) { return true; });
-  addGeneral (app, line);
+  addLimitAndCoordinates (app, line);
+  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line");
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json");
+  app.add_flag ("-v,--verbose", line.verbose,
+                "print all warnings, and the decisions that are not sure")
+      ->excludes ("--quiet");
+  app.add_flag ("--strict", line.strict,
+                "write no mesh if it is poor, or if points are in no triangle");
   beginGroup (app, option_group::BOUNDARY);
   addPath (app, "--loop", line.loop,
            "read the boundary loop from this text file: indices of points, from 0, in order; makes "
            "a disc");
-  addFiles (app, line);
-}
-
-void
-prepareApp (CLI::App& app, const char* description, const char* footer)
-{
-  constexpr std::size_t NAME_COLUMN = 34;
-  app.description (description);
-  app.get_formatter ()->column_width (NAME_COLUMN);
-  app.get_formatter ()->label ("Positionals", "Arguments");
-  app.footer (footer);
-  beginGroup (app, GENERAL);
-  app.set_help_flag ("-h,--help", "print this and exit");
-  app.set_version_flag ("--version", app.get_name () + " " PCL_FLOATER_VERSION,
-                        "print the version and exit");
+  beginGroup (app, "Files");
+  addPath (app, "INPUT", line.input,
+           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", " ")
+      ->required ();
+  addPath (app, "OUTPUT", line.output,
+           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", " ")
+      ->required ();
+  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
+             "format of INPUT; auto: that of its extension; xyz: text with a point in each line");
+  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
+             "format of OUTPUT; auto: that of its extension");
+  addOutputs (app, line);
+  addPath (app, "--html", line.html,
+           "write the report as a page for a browser: figures, findings and the mesh, which turns");
+  addNumber (app, "--page-triangles", line.shown_triangles,
+             "most triangles that the page shows; in larger meshes, vertices are joined");
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc");
+  app.add_flag (
+      "--uv", line.texture_coordinates,
+      "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk");
+  addPath (app, "--texture", line.texture,
+           "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
+           "its .mtl");
+  app.add_option ("--texture-size", line.texture_size,
+                  "side of the texture in pixels, 16 to 16384; by default a power of two, two "
+                  "pixels for an edge")
+      ->option_text ("N")
+      ->check (CLI::Range (16, 16384));
 }
 
 } // namespace pcl::floater

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "command_line.h"
-#include "core/problem.h"
+#include "options/check_options.h"
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
@@ -35,9 +35,17 @@ using ParseWord = std::function<std::string (const std::string& word)>;
 
 /// An option whose word `parse` takes.
 /// \param kind of the value, and its default, for the help
-CLI::Option*
+inline CLI::Option*
 addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const std::string& text,
-           const std::string& kind);
+           const std::string& kind)
+{
+  const auto take = [long_name = name.substr (name.find (',') + 1),
+                     parse] (const std::string& word) {
+    if (const std::string cause = parse (word); !cause.empty ())
+      throw CLI::ValidationError (long_name, "'" + word + "' " + cause);
+  };
+  return app.add_option_function<std::string> (name, take, text)->option_text (kind);
+}
 
 /// An option whose value is one of several words.
 template <typename Enum, std::size_t N>
@@ -78,17 +86,36 @@ addNumber (CLI::App& app, const std::string& name, Number& value, const std::str
 }
 
 /// An option whose value is the path of a file or a folder.
-CLI::Option*
+inline CLI::Option*
 addPath (CLI::App& app, const std::string& name, std::filesystem::path& path,
-         const std::string& description, const char* kind = "FILE");
+         const std::string& description, const char* kind = "FILE")
+{
+  const auto take = [&path] (const std::string& word) { path = word; };
+  return app.add_option_function<std::string> (name, take, description)->option_text (kind);
+}
 
 /// The name that the tools have for an option of the table: "--kept-loops" of "kept_loops".
-std::string
-toolName (std::string name);
+inline std::string
+toolName (std::string name)
+{
+  std::replace (name.begin (), name.end (), '_', '-');
+  return "--" + name;
+}
 
 /// Sets the texts around the options of a tool, and adds --help and --version.
-void
-prepareApp (CLI::App& app, const char* description, const char* footer);
+inline void
+prepareApp (CLI::App& app, const char* description, const char* footer)
+{
+  constexpr std::size_t NAME_COLUMN = 34;
+  app.description (description);
+  app.get_formatter ()->column_width (NAME_COLUMN);
+  app.get_formatter ()->label ("Positionals", "Arguments");
+  app.footer (footer);
+  beginGroup (app, option_group::GENERAL);
+  app.set_help_flag ("-h,--help", "print this and exit");
+  app.set_version_flag ("--version", app.get_name () + " " PCL_FLOATER_VERSION,
+                        "print the version and exit");
+}
 
 /// Parses a command line, after breaking the texts of all options into lines. Prints the help or the
 /// version if asked for.
@@ -97,9 +124,17 @@ prepareApp (CLI::App& app, const char* description, const char* footer);
 std::optional<int>
 parseArguments (CLI::App& app, const std::vector<std::string>& arguments);
 
-/// \param problem of checkOptions ()
-std::string
-rangeMessage (const CLI::App& app, const Problem& problem);
+/// \throws UsageError if an option is out of its range, and so on, see checkOptions ()
+inline void
+requireOptions (const CLI::App& app, const Options& options)
+{
+  const Problem problem = checkOptions (options);
+  const std::string name = toolName (problem.option);
+  if (problem)
+    throw UsageError (problem.option.empty () || app.get_option_no_throw (name) == nullptr
+                          ? problem.message
+                          : name + problem.message.substr (problem.option.size ()));
+}
 
 /// Adds every option of pcl_floater_reconstruct and the two positional arguments to \a app, which
 /// writes to \a line when it parses, and so has to end before it.
@@ -111,8 +146,15 @@ void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes);
 
-void
-addOutputs (CLI::App& app, CommandLine& line);
+inline void
+addOutputs (CLI::App& app, CommandLine& line)
+{
+  beginGroup (app, "More output");
+  app.add_flag (
+      "--normals", line.compute_normals,
+      "give the vertices normals, made from the triangles; those of the input are replaced");
+  addPath (app, "--report", line.report, "write a report on the run as JSON");
+}
 
 /// The memory limit, and how the coordinates are read and written.
 void
