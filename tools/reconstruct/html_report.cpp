@@ -170,10 +170,7 @@ thin (Drawing& drawing, std::size_t most)
     flaw.triangles.erase (std::remove (flaw.triangles.begin (), flaw.triangles.end (), NONE),
                           flaw.triangles.end ());
   }
-  std::vector<Eigen::Vector3d> positions;
-  for (const Index p : takeUsed (joined.size (), kept))
-    positions.push_back (drawing.positions[p]);
-  drawing.positions = std::move (positions);
+  drawing.positions = valuesAt (drawing.positions, takeUsed (joined.size (), kept));
   drawing.triangles = std::move (kept);
 }
 
@@ -339,25 +336,6 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
           {"dots", dots_json}};
 }
 
-/// The positions of the points that the report names, by their cloud index.
-Json
-placesJson (const Report& report, const Cloud& cloud)
-{
-  constexpr std::size_t MOST_LISTED = 20; // loops
-  Json places = Json::object ();
-  const auto add = [&] (std::uint32_t point) {
-    const Eigen::Vector3d at = cloud.positionOfRow (point);
-    places[std::to_string (point)] = {at.x (), at.y (), at.z ()};
-  };
-  for (const LoopDecision& decision : report.loop_decisions)
-    add (decision.at);
-  for (const FacingDecision& decision : report.facing_decisions)
-    add (decision.at);
-  for (std::size_t i = 0; i < std::min<std::size_t> (report.check.loops.size (), MOST_LISTED); ++i)
-    add (report.check.loops[i].at);
-  return places;
-}
-
 } // namespace
 
 std::string
@@ -371,6 +349,18 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
   Json sentences = Json::array ();
   for (const Finding& finding : report.findings)
     sentences.push_back (sentenceOf (finding));
+  Json places = Json::object (); // the positions of the points that the report names
+  const auto addPlace = [&] (std::uint32_t point) {
+    const Eigen::Vector3d at = cloud.positionOfRow (point);
+    places[std::to_string (point)] = {at.x (), at.y (), at.z ()};
+  };
+  for (const LoopDecision& decision : report.loop_decisions)
+    addPlace (decision.at);
+  for (const FacingDecision& decision : report.facing_decisions)
+    addPlace (decision.at);
+  constexpr std::size_t MOST_LISTED = 20; // loops
+  for (std::size_t i = 0; i < std::min<std::size_t> (report.check.loops.size (), MOST_LISTED); ++i)
+    addPlace (report.check.loops[i].at);
   const Drawing drawing = makeDrawing (line, cloud, result);
   std::vector<Index> all (drawing.triangles.empty () ? cloud.rows : 0);
   std::iota (all.begin (), all.end (), Index{0});
@@ -382,7 +372,7 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
 
   const Json data = {{"report", std::move (without_lists)},
                      {"sentences", std::move (sentences)},
-                     {"places", placesJson (report, cloud)},
+                     {"places", std::move (places)},
                      {"histograms",
                       {{"spacing", histogramJson (drawing.spacing, drawing.unit, true)},
                        {"height", histogramJson (drawing.height, 1.0, false)}}},

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <new>
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 namespace pcl::floater {
@@ -221,26 +220,6 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
         "run again on a file that does not change");
 }
 
-/// Writes the outputs, or only the report if there is no mesh, or if --strict refuses it.
-void
-stageAll (const CommandLine& line, Cloud& cloud, Result& result, RunFigures& run,
-          OutputFiles& files)
-{
-  Report& report = result.report;
-  if (report.status == RunStatus::SUCCESS)
-    stageOutputs (line, cloud, result, run, files);
-  const std::string objection = line.strict ? objectionTo (report) : "";
-  run.is_refused = !objection.empty ();
-  if (run.is_refused) {
-    files.clear ();
-    report.message = objection + ", which --strict does not allow";
-  }
-  if (!line.report.empty ())
-    stageFile (line.report, reportText (line, report, run), files);
-  if (!line.html.empty ())
-    stageFile (line.html, htmlReport (line, cloud, result, run), files);
-}
-
 int
 run (CommandLine line)
 {
@@ -280,7 +259,18 @@ run (CommandLine line)
   progress.show ("writing");
   start = std::chrono::steady_clock::now ();
   OutputFiles files;
-  stageAll (line, cloud, result, figures, files);
+  if (report.status == RunStatus::SUCCESS)
+    stageOutputs (line, cloud, result, figures, files);
+  const std::string objection = line.strict ? objectionTo (report) : "";
+  figures.is_refused = !objection.empty ();
+  if (figures.is_refused) { // only the report is written
+    files.clear ();
+    report.message = objection + ", which --strict does not allow";
+  }
+  if (!line.report.empty ())
+    stageFile (line.report, reportText (line, report, figures), files);
+  if (!line.html.empty ())
+    stageFile (line.html, htmlReport (line, cloud, result, figures), files);
   figures.write_seconds = secondsSince (start);
   progress.show ("");
   printOutcome (line, report, figures);

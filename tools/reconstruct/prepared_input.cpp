@@ -5,31 +5,8 @@
 #include "points/outliers.h"
 
 #include <Eigen/Geometry>
-#include <pcl/surface/floater/vertex_normals.h>
 
 namespace pcl::floater {
-int
-exitCode (const Report& report, const RunFigures& run)
-{
-  if (run.is_refused)
-    return EXIT_WARNINGS;
-  const RunStatus status = report.status;
-  return status == RunStatus::SUCCESS          ? EXIT_OK
-         : status == RunStatus::INVALID_OPTION ? EXIT_USAGE
-         : status == RunStatus::OUT_OF_MEMORY || status == RunStatus::INTERNAL_ERROR
-             ? EXIT_INTERNAL
-             : EXIT_RECONSTRUCTION;
-}
-
-void
-checkMemory (const CommandLine& line, std::size_t points, double kept_per_point)
-{
-  const std::size_t least = leastMemory (points, kept_per_point);
-  if (line.max_memory > 0 && line.max_memory < least)
-    throw UsageError ("--max-memory: " + formatSize (line.max_memory) + " is too small for " +
-                      counted (points, "point") + "; use " + formatSize (least) + " or more");
-}
-
 namespace {
 void
 takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
@@ -177,14 +154,6 @@ prepareInput (CommandLine& line, Cloud& cloud, RunFigures& figures, double kept_
   for (const Field& field : cloud.fields)
     figures.input_fields.push_back (field.name);
   return input;
-}
-
-void
-replaceNormals (Cloud& cloud, const Triangles& triangles, int threads)
-{
-  std::vector<Eigen::Vector3f> normals = vertexNormals (cloud.positions (), triangles, threads);
-  giveBackMappedFiles ();
-  replaceColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT32, std::move (normals), cloud.fields);
 }
 
 } // namespace pcl::floater

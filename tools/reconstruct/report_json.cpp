@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
-#include "format.h"
 #include "options/option_rows.h"
 
 #include <nlohmann/json.hpp>
@@ -168,19 +167,6 @@ resultJson (const Report& report)
           {"facing_decisions", report.facing_decisions},
           {"findings", report.findings},
           {"statistics", report.statistics}};
-}
-
-std::string
-objectionTo (const Report& report)
-{
-  if (report.status != RunStatus::SUCCESS)
-    return "";
-  if (report.verdict.value == Quality::POOR)
-    return "the mesh is poor: " + report.verdict.cause;
-  return report.unused.empty ()
-             ? ""
-             : counted (report.unused.size (), "point") +
-                   (report.unused.size () == 1 ? " is" : " are") + " in no triangle";
 }
 
 nlohmann::ordered_json

@@ -4,6 +4,8 @@
 // share.
 #pragma once
 
+#include "format.h"
+
 #include <pcl/surface/floater/report.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -35,8 +37,18 @@ resultJson (const Report& report);
 
 /// Why a mesh is refused where that is asked for: it is poor, or points are in no triangle. Empty if
 /// there is no reason.
-std::string
-objectionTo (const Report& report);
+inline std::string
+objectionTo (const Report& report)
+{
+  const std::size_t unused = report.unused.size ();
+  if (report.status != RunStatus::SUCCESS)
+    return "";
+  if (report.verdict.value == Quality::POOR)
+    return "the mesh is poor: " + report.verdict.cause;
+  return unused == 0
+             ? ""
+             : counted (unused, "point") + (unused == 1 ? " is" : " are") + " in no triangle";
+}
 
 nlohmann::ordered_json
 secondsJson (const Statistics& statistics);

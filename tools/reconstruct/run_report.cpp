@@ -6,7 +6,6 @@
 #include "scratch_arrays.h"
 
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include <cstdio>
 
@@ -183,15 +182,6 @@ printSummary (std::FILE* to, const CommandLine& line, const Report& report, cons
 }
 
 } // namespace
-
-std::size_t
-peakMemory ()
-{
-  constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
-  rusage usage{};
-  ::getrusage (RUSAGE_SELF, &usage);
-  return static_cast<std::size_t> (usage.ru_maxrss) * UNIT;
-}
 
 nlohmann::ordered_json
 reportJson (const CommandLine& line, const Report& report, const RunFigures& run)

@@ -8,6 +8,7 @@
 #include <pcl/surface/floater/reconstruct.h>
 
 #include <nlohmann/json_fwd.hpp>
+#include <sys/resource.h>
 
 #include <chrono>
 
@@ -37,8 +38,14 @@ secondsSince (std::chrono::steady_clock::time_point start)
 }
 
 /// Largest resident memory of this process so far, in bytes.
-std::size_t
-peakMemory ();
+inline std::size_t
+peakMemory ()
+{
+  constexpr std::size_t UNIT = 1024; // bytes; Linux counts in kB
+  rusage usage{};
+  ::getrusage (RUSAGE_SELF, &usage);
+  return static_cast<std::size_t> (usage.ru_maxrss) * UNIT;
+}
 
 /// Adds to the report the warnings on the input, those on options, and what went wrong with the memory
 /// limit and the scratch folder.

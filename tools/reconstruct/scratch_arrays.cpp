@@ -27,16 +27,7 @@
 
 namespace pcl::floater {
 namespace {
-// Pages are dropped above this fraction of the limit. The rest is filled while the thread that
-// drops them sleeps, waits for a processor, or works.
-constexpr double MOST_RESIDENT = 0.7;
 constexpr std::chrono::milliseconds BETWEEN_LOOKS{1};
-
-// Bytes that stay in memory: the program with its libraries and stacks, and arrays that are not
-// large.
-constexpr double FIXED = 20e6;
-
-constexpr std::size_t PAGE = 4096; // or a multiple; where mappings begin
 
 /// Why the last array that could not be made had no room.
 struct ScratchFailure
@@ -70,12 +61,10 @@ std::atomic<bool> has_scratch{false};
 int
 makeScratchFile (const std::string& folder)
 {
-#ifdef O_TMPFILE
   constexpr mode_t OWNER = 0600;
   const int file = ::open (folder.c_str (), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, OWNER);
   if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
     return file;
-#endif
   std::string name = folder + "/.pcl_floater.scratch.XXXXXX";
   const int named = ::mkostemp (name.data (), O_CLOEXEC);
   if (named >= 0)
@@ -126,25 +115,6 @@ makeLargeArray (std::size_t size)
   all.use.bytes += size;
   all.use.peak = std::max (all.use.peak, all.use.bytes);
   return array;
-}
-
-/// \return false if the pointer is not one of these arrays
-[[maybe_unused]] bool
-freeLargeArray (void* pointer)
-{
-  if (!has_scratch || reinterpret_cast<std::uintptr_t> (pointer) % PAGE != 0)
-    return false;
-  ScratchArrays& all = scratchArrays ();
-  decltype (all.sizes)::node_type node; // freed without the lock
-  {
-    const std::lock_guard<std::mutex> lock (all.mutex);
-    node = all.sizes.extract (pointer);
-    if (node.empty ())
-      return false;
-    all.use.bytes -= node.mapped ();
-  }
-  ::munmap (pointer, node.mapped ());
-  return true;
 }
 
 /// Bytes of this process that are in memory; 0 if that is unknown.
@@ -253,20 +223,6 @@ parseSize (std::string_view word, std::size_t& bytes)
   return true;
 }
 
-std::string
-formatSize (std::size_t bytes)
-{
-  constexpr std::size_t MEGABYTE = 1'000'000;
-  return std::to_string ((bytes + MEGABYTE - 1) / MEGABYTE) + "M";
-}
-
-std::size_t
-leastMemory (std::size_t points, double kept_per_point)
-{
-  return static_cast<std::size_t> ((FIXED + kept_per_point * static_cast<double> (points)) /
-                                   MOST_RESIDENT);
-}
-
 void
 prepareHeap (bool in_huge_pages)
 {
@@ -337,8 +293,21 @@ operator new (std::size_t size)
 void
 operator delete (void* pointer) noexcept
 {
-  if (!pcl::floater::freeLargeArray (pointer))
+  using namespace pcl::floater;
+  constexpr std::uintptr_t PAGE = 4096; // or a multiple; where mappings begin
+  if (!has_scratch || reinterpret_cast<std::uintptr_t> (pointer) % PAGE != 0)
+    return std::free (pointer);
+  ScratchArrays& all = scratchArrays ();
+  decltype (all.sizes)::node_type node; // freed without the lock
+  {
+    const std::lock_guard<std::mutex> lock (all.mutex);
+    node = all.sizes.extract (pointer);
+    all.use.bytes -= node.empty () ? 0 : node.mapped ();
+  }
+  if (node.empty ())
     std::free (pointer);
+  else
+    ::munmap (pointer, node.mapped ());
 }
 
 void

@@ -55,16 +55,29 @@ bool
 parseSize (std::string_view word, std::size_t& bytes);
 
 /// Formats a size for parseSize (), in millions of bytes, rounded up ("500M").
-std::string
-formatSize (std::size_t bytes);
+inline std::string
+formatSize (std::size_t bytes)
+{
+  constexpr std::size_t MEGABYTE = 1'000'000;
+  return std::to_string ((bytes + MEGABYTE - 1) / MEGABYTE) + "M";
+}
 
 /// Bytes of each point that have to stay in memory when a cloud is reconstructed by one process.
 /// 250 MB for 10 million points. With less, most of the time goes into reading pages back.
 constexpr double KEPT_PER_POINT = 25.0;
 
+/// Pages are dropped above this fraction of the limit. The rest is filled while the thread that
+/// drops them sleeps, waits for a processor, or works.
+constexpr double MOST_RESIDENT = 0.7;
+
 /// Least limit, in bytes, near which the memory for a cloud of so many points can be kept.
-std::size_t
-leastMemory (std::size_t points, double kept_per_point = KEPT_PER_POINT);
+inline std::size_t
+leastMemory (std::size_t points, double kept_per_point = KEPT_PER_POINT)
+{
+  constexpr double FIXED = 20e6; // the program with its libraries and stacks, and small arrays
+  return static_cast<std::size_t> ((FIXED + kept_per_point * static_cast<double> (points)) /
+                                   MOST_RESIDENT);
+}
 
 /// Arrays of a large cloud go back to the system as soon as they are freed; smaller ones stay, and
 /// are used again without being cleared. By default glibc raises the threshold with the first array
