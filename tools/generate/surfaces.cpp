@@ -108,26 +108,14 @@ foldedSheet (double n, double gap)
   return {n, lift, [width] (double, double) { return width; }};
 }
 
-// The holes are in the middle of the cells of a grid. Radius in units of the side of the sheet.
-struct Holes
-{
-  int columns, rows;
-  double radius;
-};
-
-Holes
-holesOf (int holes)
-{
-  const int columns = static_cast<int> (std::ceil (std::sqrt (static_cast<double> (holes))));
-  const int rows = (holes + columns - 1) / columns;
-  return {columns, rows, HOLE_RADIUS / static_cast<double> (std::max (columns, rows))};
-}
-
+// The holes are in the middle of the cells of a grid. Their radius is in sides of the sheet.
 Chart
 cutOut (double n, int holes)
 {
   require (holes >= 0 && holes <= 10000, "the number of holes must be from 0 to 10000");
-  const double radius = holes > 0 ? holesOf (holes).radius : 0.0; // in sides
+  const int columns = std::max (static_cast<int> (std::ceil (std::sqrt (holes))), 1);
+  const int rows = (holes + columns - 1) / columns;
+  const double radius = HOLE_RADIUS / std::max (columns, rows);
   const double side = std::sqrt (n / (1.0 - holes * PI * radius * radius));
   require (holes == 0 || radius * side >= MIN_HOLE,
            "there are too many holes for so few points: their radius is below 4 spacings");
@@ -136,13 +124,11 @@ cutOut (double n, int holes)
   };
   Chart chart{side * side, lift, [side] (double, double) { return side; }};
   if (holes > 0)
-    chart.inside = [layout = holesOf (holes), holes] (double s, double t) {
-      const int column = std::clamp (static_cast<int> (s * layout.columns), 0, layout.columns - 1);
-      const int row = std::clamp (static_cast<int> (t * layout.rows), 0, layout.rows - 1);
-      if (row * layout.columns + column >= holes)
-        return true;
-      return std::hypot (s - (column + 0.5) / layout.columns, t - (row + 0.5) / layout.rows) >
-             layout.radius;
+    chart.inside = [=] (double s, double t) {
+      const int column = std::clamp (static_cast<int> (s * columns), 0, columns - 1);
+      const int row = std::clamp (static_cast<int> (t * rows), 0, rows - 1);
+      return row * columns + column >= holes ||
+             std::hypot (s - (column + 0.5) / columns, t - (row + 0.5) / rows) > radius;
     };
   return chart;
 }

@@ -237,13 +237,8 @@ drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& tria
 }
 
 // One light over the left shoulder of the viewer, and a weaker one from the lower right.
-inline double
-brightness (const Eigen::Vector3d& normal)
-{
-  static const Eigen::Vector3d LEFT = 0.9 * Eigen::Vector3d (-0.8, 1.0, 1.0).normalized (),
-                               RIGHT = 0.55 * Eigen::Vector3d (1.0, -0.6, 0.8).normalized ();
-  return std::max (normal.dot (LEFT), 0.0) + std::max (normal.dot (RIGHT), 0.0);
-}
+inline const Eigen::Vector3d LEFT = 0.9 * Eigen::Vector3d (-0.8, 1.0, 1.0).normalized (),
+                             RIGHT = 0.55 * Eigen::Vector3d (1.0, -0.6, 0.8).normalized ();
 
 enum class Shading
 {
@@ -299,8 +294,10 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
       if (shading == Shading::NONE)
         return colour;
       const Eigen::Vector3d normal =
-          shading == Shading::FLAT ? normals[t] : mean (sums, shares).normalized ();
-      return (brightness (side * normal) * colour).cwiseMin (1.0);
+          side * (shading == Shading::FLAT ? normals[t] : mean (sums, shares).normalized ());
+      const double brightness =
+          std::max (normal.dot (LEFT), 0.0) + std::max (normal.dot (RIGHT), 0.0);
+      return (brightness * colour).cwiseMin (1.0);
     });
   }
   if (!texture)
@@ -310,13 +307,12 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
 
 struct PictureOptions
 {
-  std::optional<PictureMesh> parameterization; ///< mesh in the plane whose edges are drawn beside
-                                               ///< the mesh
-  std::optional<ColourImage> texture;          ///< image on the mesh, by its texture coordinates;
-                                               ///< beside it, the same in the square of the texture
-  bool flat_shading = false;                   ///< one shade for each triangle, which shows bumps
-  std::optional<Eigen::Vector3d> viewpoint; ///< from where the mesh is seen, if it lies within 60
-                                            ///< degrees of one direction from there
+  std::optional<PictureMesh> parameterization; ///< in the plane; its edges are drawn beside
+  /// Image on the mesh, by its texture coordinates; beside it, the same in the square of the texture.
+  std::optional<ColourImage> texture;
+  bool flat_shading = false; ///< one shade for each triangle, which shows bumps
+  /// From where the mesh is seen, if it lies within 60 degrees of one direction from there.
+  std::optional<Eigen::Vector3d> viewpoint;
 };
 
 /// Draws a mesh: front sides blue, back sides orange, boundary edges red, and all edges if there
