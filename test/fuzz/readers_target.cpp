@@ -40,8 +40,8 @@ useCloud (Cloud& cloud)
       });
   if (numbers > values) // each has been read
     fail ("there are more numbers than values");
-  colorFields (cloud);
-  normalFields (cloud);
+  cloud.colors ();
+  cloud.normals ();
   std::size_t finite = 0, left_out = 0;
   for (std::size_t row = 0; row < cloud.rows; ++row) {
     left_out += cloud.isLeftOut (row) ? 1 : 0;

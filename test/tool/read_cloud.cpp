@@ -36,7 +36,7 @@ describe (Cloud& cloud)
   Json all{{"points", points},
            {"fields", fields},
            {"is_single", cloud.single_precision},
-           {"has_colors", colorFields (cloud)[0] != nullptr},
+           {"has_colors", cloud.colors ()[0] != nullptr},
            {"may_be_degrees", cloud.may_be_degrees},
            {"sensor_origin", cloud.sensor_origin},
            {"towards_sensors", cloud.towards_sensors.size ()},

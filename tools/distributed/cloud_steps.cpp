@@ -5,7 +5,6 @@
 #include "job.h"
 
 #include "input/input.h"
-#include "prepared_input.h"
 #include "reconstruct.h"
 #include "report/report_cloud.h"
 #include "report_json.h"

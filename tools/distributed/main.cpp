@@ -5,7 +5,6 @@
 // known by its file alone, so that a run that was ended goes on where it was.
 #include "job.h"
 #include "option_table.h"
-#include "scratch_arrays.h"
 
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>

@@ -3,7 +3,6 @@
 #include "job.h"
 
 #include "input/input.h"
-#include "prepared_input.h"
 #include "report_json.h"
 #include "stored_cloud.h"
 

@@ -200,6 +200,9 @@ putValues (const Field& field, char* to, const Next& next)
   return to;
 }
 
+/// Three fields of one value each: the channels of a colour, or the coordinates of a normal.
+using FieldTriple = std::array<const Field*, 3>;
+
 /// A point cloud. Whatever the file calls them, colours are the fields red, green, blue (and alpha)
 /// of type UINT8, and normals are nx, ny, nz. All other fields keep their names. The fields have
 /// all rows of the file, also those of points that have been left out since.
@@ -263,6 +266,29 @@ struct Cloud
         return &field;
     return nullptr;
   }
+
+  /// The fields of these names if they have one value each and one of these types.
+  FieldTriple findTriple (const std::array<const char*, 3>& names,
+                          std::initializer_list<ScalarType> types) const
+  {
+    FieldTriple triple{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      triple[i] = find (names[i]);
+      if (!triple[i] || triple[i]->count != 1 || triple[i]->type != triple[0]->type)
+        return {};
+    }
+    const bool fits = std::find (types.begin (), types.end (), triple[0]->type) != types.end ();
+    return fits ? triple : FieldTriple{};
+  }
+
+  /// The fields red, green and blue if they are 8-bit colours, else three times nullptr.
+  FieldTriple colors () const { return findTriple ({"red", "green", "blue"}, {ScalarType::UINT8}); }
+
+  /// The fields nx, ny and nz if they are floats of one type, else three times nullptr.
+  FieldTriple normals () const
+  {
+    return findTriple ({"nx", "ny", "nz"}, {ScalarType::FLOAT32, ScalarType::FLOAT64});
+  }
 };
 
 inline std::vector<Field*>
@@ -276,42 +302,10 @@ allFields (Cloud& cloud)
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Three fields of one value each: the channels of a colour, or the coordinates of a normal.
-using FieldTriple = std::array<const Field*, 3>;
-
 inline Eigen::Vector3d
 vectorOf (const FieldTriple& fields, std::size_t row)
 {
   return {fields[0]->asDouble (row), fields[1]->asDouble (row), fields[2]->asDouble (row)};
-}
-
-/// The fields of these names if they have one value each and one of these types.
-inline FieldTriple
-findTriple (const Cloud& cloud, const std::array<const char*, 3>& names,
-            std::initializer_list<ScalarType> types)
-{
-  FieldTriple triple{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    triple[i] = cloud.find (names[i]);
-    if (!triple[i] || triple[i]->count != 1 || triple[i]->type != triple[0]->type)
-      return {};
-  }
-  const bool fits = std::find (types.begin (), types.end (), triple[0]->type) != types.end ();
-  return fits ? triple : FieldTriple{};
-}
-
-/// The fields red, green and blue if they are 8-bit colours, else three times nullptr.
-inline FieldTriple
-colorFields (const Cloud& cloud)
-{
-  return findTriple (cloud, {"red", "green", "blue"}, {ScalarType::UINT8});
-}
-
-/// The fields nx, ny and nz if they are floats of one type, else three times nullptr.
-inline FieldTriple
-normalFields (const Cloud& cloud)
-{
-  return findTriple (cloud, {"nx", "ny", "nz"}, {ScalarType::FLOAT32, ScalarType::FLOAT64});
 }
 
 /// Makes a cloud from the fields of a file: finds x, y and z (or X, Y, Z), unpacks PCL's rgb and

@@ -8,20 +8,6 @@
 #include <sstream>
 
 namespace pcl::floater {
-CloudFormat
-requireCloudFormat (const std::filesystem::path& path, const char* advice)
-{
-  const std::string extension = lowerExtension (path);
-  if (extension == ".laz")
-    throw ReadError (LAZ_ADVICE);
-  if (extension == ".e57")
-    throw ReadError ("it is an E57 file, which cannot be read; convert it: pdal translate a.e57 "
-                     "a.las, or CloudCompare -SILENT -O a.e57 -C_EXPORT_FMT PLY -SAVE_CLOUDS");
-  if (const CloudFormat format = cloudFormatOf (path))
-    return format;
-  throw ReadError (unknownExtension (path) + "; use " + CLOUD_EXTENSIONS + advice);
-}
-
 namespace {
 /// Leaves out the points of other classes than those, by the field `classification`; by default,
 /// those of low and high noise (7 and 18) of LAS. Always those of the field `withheld`.

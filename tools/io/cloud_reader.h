@@ -134,8 +134,19 @@ cloudFormatOf (const std::filesystem::path& path)
 /// The same.
 /// \param advice what else to do if the format is unknown
 /// \throws ReadError if it is; of formats that are not read, with the command that converts them
-CloudFormat
-requireCloudFormat (const std::filesystem::path& path, const char* advice = "");
+inline CloudFormat
+requireCloudFormat (const std::filesystem::path& path, const char* advice = "")
+{
+  const std::string extension = lowerExtension (path);
+  if (extension == ".laz")
+    throw ReadError (LAZ_ADVICE);
+  if (extension == ".e57")
+    throw ReadError ("it is an E57 file, which cannot be read; convert it: pdal translate a.e57 "
+                     "a.las, or CloudCompare -SILENT -O a.e57 -C_EXPORT_FMT PLY -SAVE_CLOUDS");
+  if (const CloudFormat format = cloudFormatOf (path))
+    return format;
+  throw ReadError (unknownExtension (path) + "; use " + CLOUD_EXTENSIONS + advice);
+}
 
 /// Reads a cloud. The fields of uncompressed binary files stay in the mapped file.
 /// \param path "-": the standard input

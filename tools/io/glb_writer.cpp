@@ -8,8 +8,6 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 using Json = nlohmann::json;
@@ -41,8 +39,8 @@ unitNormal (const FieldTriple& fields, std::size_t row)
 void
 writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& /*extras*/)
 {
-  const FieldTriple colors = colorFields (cloud);
-  const FieldTriple normals = normalFields (cloud);
+  const FieldTriple colors = cloud.colors ();
+  const FieldTriple normals = cloud.normals ();
   const Field* const alpha = cloud.find ("alpha");
   const bool has_alpha = alpha != nullptr && alpha->type == ScalarType::UINT8 && alpha->count == 1;
   constexpr std::size_t VECTOR = 3 * sizeof (float), TRIANGLE = 3 * sizeof (std::uint32_t);

@@ -4,7 +4,6 @@
 #include "cloud_reader.h"
 #include "text_scanner.h"
 
-#include <limits>
 #include <set>
 
 namespace pcl::floater {

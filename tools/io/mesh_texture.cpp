@@ -78,7 +78,7 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
   constexpr std::uint8_t GREY = 128;
   ColourImage image{side, side, {side * side, ColourImage::Pixel{GREY, GREY, GREY}}};
   std::vector<std::uint8_t> is_painted (side * side, 0);
-  const FieldTriple fields = colorFields (cloud);
+  const FieldTriple fields = cloud.colors ();
   const auto length = static_cast<double> (side);
   const auto put = [&] (std::size_t x, std::size_t y, const Colour& colour) {
     Eigen::Map<Eigen::Matrix<std::uint8_t, 3, 1>> (image.pixels[y * side + x].data ()) =

@@ -57,7 +57,7 @@ parsePng (const FileBytes& file);
 /// Paints every triangle with the colours of its corners, which are averaged linearly in between.
 /// Pixels that no triangle covers get the colour of the nearest that one does, so that nothing
 /// shows at seams, at any level of a mipmap. O(pixels).
-/// \param cloud with colours (see colorFields)
+/// \param cloud with colours (see Cloud::colors)
 /// \param side of the image, in pixels; 0: a power of two from 256 to 8192, at which an edge of the
 ///   mesh is about two pixels long
 ColourImage

@@ -4,8 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 constexpr const char* COMMENT = "written by pcl_floater_reconstruct";
@@ -118,8 +116,8 @@ void
 writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& extras)
 {
   const TextureCoordinates* const texture = extras.texture;
-  const FieldTriple colors = colorFields (cloud);
-  const FieldTriple normals = normalFields (cloud);
+  const FieldTriple colors = cloud.colors ();
+  const FieldTriple normals = cloud.normals ();
   file.print ("# ", COMMENT, "\n", shiftLine ("# shift ", cloud));
   if (texture != nullptr)
     file.print ("mtllib ", materialsBeside (extras.path).filename ().string (), "\n");
@@ -161,8 +159,8 @@ writeObj (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
 void
 writeOff (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, MeshExtras& /*extras*/)
 {
-  const FieldTriple colors = colorFields (cloud);
-  const FieldTriple normals = normalFields (cloud);
+  const FieldTriple colors = cloud.colors ();
+  const FieldTriple normals = cloud.normals ();
   file.print (colors[0] ? "C" : "", normals[0] ? "N" : "", "OFF\n# ", COMMENT, "\n",
               shiftLine ("# shift ", cloud), cloud.size (), " ", triangles.size (), " 0\n");
   for (std::size_t i = 0; i < cloud.size (); ++i) {
@@ -218,8 +216,8 @@ writeVtk (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
       file.writeNumber (number, ByteOrder::big);
   file.print ("\n");
 
-  const FieldTriple colors = colorFields (cloud);
-  const FieldTriple normals = normalFields (cloud);
+  const FieldTriple colors = cloud.colors ();
+  const FieldTriple normals = cloud.normals ();
   const std::array<const Field*, 2> texture{with_texture ? cloud.find ("s") : nullptr,
                                             with_texture ? cloud.find ("t") : nullptr};
   std::vector<const Field*> others;

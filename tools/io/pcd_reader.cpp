@@ -7,8 +7,6 @@
 #include <lzf.h>
 #endif
 
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 const std::string PADDING = "_";

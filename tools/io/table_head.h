@@ -7,8 +7,6 @@
 #include "cloud_reader.h"
 #include "text_scanner.h"
 
-#include <limits>
-
 namespace pcl::floater {
 using Words = std::vector<std::string_view>;
 

@@ -5,8 +5,6 @@
 
 #include "mesh_texture.h"
 
-#include <limits>
-
 namespace pcl::floater {
 using Colour = Eigen::Vector3d; ///< red, green, blue from 0 to 1
 

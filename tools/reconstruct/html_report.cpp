@@ -17,7 +17,6 @@
 #include <boost/archive/iterators/transform_width.hpp>
 
 #include <nlohmann/json.hpp>
-#include <pcl/surface/floater/vertex_normals.h>
 
 #include <numeric>
 #include <unordered_map>
@@ -233,10 +232,10 @@ histogramJson (std::vector<float> values, double unit, bool is_log)
 /// Numbers of 32 bits, little endian, in base64.
 template <typename Number>
 std::string
-base64 (const std::vector<Number>& numbers)
+base64 (const Number* numbers, std::size_t count)
 {
-  std::string bytes (numbers.size () * sizeof (Number), '\0');
-  for (std::size_t i = 0; i < numbers.size (); ++i)
+  std::string bytes (count * sizeof (Number), '\0');
+  for (std::size_t i = 0; i < count; ++i)
     copyNumber<Number> (&bytes[i * sizeof (Number)], &numbers[i]);
   using SixBits = boost::archive::iterators::transform_width<const char*, 6, 8>;
   using Digits = boost::archive::iterators::base64_from_binary<SixBits>;
@@ -308,16 +307,14 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
     for (const Eigen::Vector3d& position : positions)
       for (const double coordinate : (position - box.center ()) / size)
         coordinates.push_back (static_cast<float> (coordinate));
-    return base64 (coordinates);
+    return base64 (coordinates.data (), coordinates.size ());
   };
-  std::vector<Index> corners;
-  for (const Triangle& triangle : drawing.triangles)
-    corners.insert (corners.end (), triangle.begin (), triangle.end ());
+  const auto* const corners = reinterpret_cast<const Index*> (drawing.triangles.data ());
   Json flaws = Json::array (), dots_json = Json::array ();
   for (const Flaw& flaw : drawing.flaws)
     flaws.push_back ({{"name", flaw.name},
                       {"count", flaw.triangles.size ()},
-                      {"triangles", base64 (flaw.triangles)}});
+                      {"triangles", base64 (flaw.triangles.data (), flaw.triangles.size ())}});
   for (const Dots& dots : all_dots)
     dots_json.push_back ({{"name", dots.name},
                           {"count", dots.count},
@@ -331,7 +328,7 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
           {"unit", drawing.unit * size},
           {"spacing", drawing.unit * drawing.median_spacing},
           {"positions", written (drawing.positions)},
-          {"corners", base64 (corners)},
+          {"corners", base64 (corners, 3 * drawing.triangles.size ())},
           {"flaws", flaws},
           {"dots", dots_json}};
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a cloud, reconstructs its surface and writes the mesh. Calls the core and not the PCL
 // class, so that coordinates keep their double precision.
-#include "prepared_input.h"
 #include "report_json.h"
+#include "run_report.h"
 #include "text_scanner.h"
 
 #include <cstdio>
@@ -89,7 +89,7 @@ flatMesh (const Cloud& cloud, const Result& result, Precision precision)
   const std::size_t points = places.size ();
   std::vector<Field> fields;
   addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (places), fields);
-  const FieldTriple normals = normalFields (cloud);
+  const FieldTriple normals = cloud.normals ();
   for (const Field& field : cloud.fields)
     if (std::find (normals.begin (), normals.end (), &field) == normals.end ())
       fields.push_back (field);
@@ -233,7 +233,7 @@ run (CommandLine line)
     line.options.disc.boundary.loop = readNamed (line.loop, [&] { return readLoop (line.loop); });
   Cloud cloud = readNamed (
       line.input, [&] { return readCloud (line.input, line.readOptions (), line.input_format); });
-  if (!line.texture.empty () && !colorFields (cloud)[0])
+  if (!line.texture.empty () && !cloud.colors ()[0])
     throw UsageError ("--texture: the points of '" + line.input.string () +
                       "' have no colours (red, green, blue of 8 bits, or rgb); use --uv for "
                       "texture coordinates alone");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "prepared_input.h"
+#include "run_report.h"
 
 #include "points/outliers.h"
 
@@ -17,7 +17,7 @@ takeNormals (const CommandLine& line, Cloud& cloud, Input& input)
     input.facing_normals = std::move (cloud.towards_sensors);
   if (!line.use_input_normals && !for_facing)
     return;
-  const FieldTriple fields = normalFields (cloud);
+  const FieldTriple fields = cloud.normals ();
   if (!fields[0])
     throw UsageError (
         std::string (line.use_input_normals ? "--use-input-normals on" : "--facing normals") +

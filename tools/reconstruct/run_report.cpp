@@ -3,7 +3,6 @@
 #include "run_report.h"
 
 #include "report_json.h"
-#include "scratch_arrays.h"
 
 #include <nlohmann/json.hpp>
 
@@ -245,25 +244,6 @@ reportText (const CommandLine& line, const Report& report, const RunFigures& run
   for (const auto& [key, value] : all.items ())
     text += (text.empty () ? "{\n  " : ",\n  ") + dump (key) + ": " + dump (value);
   return text + "\n}\n";
-}
-
-void
-completeReport (const CommandLine& line, const std::vector<std::string>& of_input, Report& report)
-{
-  report.warnings.insert (report.warnings.begin (), line.warnings.begin (), line.warnings.end ());
-  report.warnings.insert (report.warnings.begin (), of_input.begin (), of_input.end ());
-  if (const std::string failure = scratchFailure ();
-      report.status == RunStatus::OUT_OF_MEMORY && !failure.empty ())
-    report.message = failure;
-  if (line.max_memory == 0)
-    return;
-  if (liesInMemory (line.scratch))
-    report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
-                               "' is in memory itself; use --scratch to name one on a disk");
-  const std::size_t peak = peakMemory ();
-  if (peak > line.max_memory)
-    report.warnings.push_back ("the memory in use grew to " + formatSize (peak) +
-                               ", above --max-memory " + formatSize (line.max_memory));
 }
 
 void

@@ -8,13 +8,11 @@
 #include "atomic_file.h"
 #include "text_scanner.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 #include <sys/mman.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -167,16 +165,6 @@ keepLargeArraysIn (const std::filesystem::path& folder, std::size_t limit)
   }
 }
 
-bool
-liesInMemory (const std::filesystem::path& folder)
-{
-  constexpr std::array<unsigned long, 2> IN_MEMORY{0x01021994UL, 0x858458f6UL}; // tmpfs, ramfs
-  struct statfs status = {};
-  return ::statfs (folder.c_str (), &status) == 0 &&
-         std::find (IN_MEMORY.begin (), IN_MEMORY.end (),
-                    static_cast<unsigned long> (status.f_type)) != IN_MEMORY.end ();
-}
-
 ScratchUse
 scratchUse ()
 {
@@ -254,16 +242,6 @@ giveFreedBack ()
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
   malloc_trim (0);
 #endif
-}
-
-void
-endBlasThreads ()
-{
-  // What OpenBLAS itself calls before a fork.
-  using Shutdown = int (*) ();
-  const auto shutdown = reinterpret_cast<Shutdown> (dlsym (RTLD_DEFAULT, "blas_thread_shutdown_"));
-  if (shutdown != nullptr)
-    shutdown ();
 }
 
 } // namespace pcl::floater

@@ -7,6 +7,9 @@
 // tools do with the C library and with OpenBLAS, which is nothing where it is another library.
 #pragma once
 
+#include <dlfcn.h>
+#include <sys/vfs.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -32,8 +35,16 @@ void
 dropPages ();
 
 /// Whether the files in this folder are kept in memory (tmpfs, ramfs); false if that is unknown.
-bool
-liesInMemory (const std::filesystem::path& folder);
+inline bool
+liesInMemory (const std::filesystem::path& folder)
+{
+  constexpr unsigned long TMPFS = 0x01021994UL, RAMFS = 0x858458f6UL;
+  struct statfs status = {};
+  if (::statfs (folder.c_str (), &status) != 0)
+    return false;
+  const auto type = static_cast<unsigned long> (status.f_type);
+  return type == TMPFS || type == RAMFS;
+}
 
 /// Use of the scratch folder, in bytes.
 struct ScratchUse
@@ -99,7 +110,14 @@ giveFreedBack ();
 ///
 /// To be called before any other thread is started, and not where the address space is limited: a
 /// worker that finds no memory never ends.
-void
-endBlasThreads ();
+inline void
+endBlasThreads ()
+{
+  // What OpenBLAS itself calls before a fork.
+  using Shutdown = int (*) ();
+  const auto shutdown = reinterpret_cast<Shutdown> (dlsym (RTLD_DEFAULT, "blas_thread_shutdown_"));
+  if (shutdown != nullptr)
+    shutdown ();
+}
 
 } // namespace pcl::floater
