@@ -81,14 +81,6 @@ class Work(Tool):
     def plan(self, cloud, blocks=3):
         self.ok(self.step("plan", "--blocks", blocks, cloud, "mesh.ply"))
 
-    def steps_of_blocks(self):
-        """All that is done before the blocks are joined."""
-        for step in STEPS:
-            for block in range(3):
-                self.ok(self.step(step, "--block", block))
-            if step == "neighbors":
-                self.ok(self.step("outliers"))
-
     def printed_steps(self):
         """Groups of commands; those of a group can run in any order, and are in the reverse one here."""
         groups = self.ok(self.command("--print-steps")).stdout.rstrip("\n").split("\n\n")

@@ -41,6 +41,12 @@ def sample_of(points, colors=None, normals=None, intensities=None, is_double=Fal
         intensities=np.zeros(count, "f4") if intensities is None else np.array(intensities, "f4"))
 
 
+def spiral(count, height):
+    """Points spread evenly over the unit sphere, from its top to so far below that."""
+    z, angle = 1 - height * (np.arange(count) + 0.5) / count, 2.399963 * np.arange(count)
+    return np.stack([np.sqrt(1 - z * z) * np.cos(angle), np.sqrt(1 - z * z) * np.sin(angle), z], -1)
+
+
 def pcd_bytes(sample):
     """Binary PCD: x y z, rgb, normals, intensity."""
     rows = np.zeros(len(sample.points), [("at", "<f8" if sample.is_double else "<f4", 3), ("rgb", "<u4"),

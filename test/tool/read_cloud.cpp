@@ -12,27 +12,21 @@ namespace pcl::floater {
 namespace {
 using Json = nlohmann::ordered_json;
 
-/// All values of a field, which are null where they are no numbers.
-Json
-valuesOf (const Field& field, std::size_t rows)
-{
-  Json values = Json::array ();
-  visitType (field.type, [&] (auto tag) {
-    for (std::size_t row = 0; row < rows; ++row)
-      for (std::size_t c = 0; c < field.count; ++c)
-        values.push_back (static_cast<double> (field.value<decltype (tag)> (row, c)));
-  });
-  return values;
-}
-
 Json
 describe (Cloud& cloud)
 {
   Json points = Json::array (), fields = Json::array ();
   for (const Eigen::Vector3d& p : cloud.positions ())
     points.push_back ({p.x (), p.y (), p.z ()});
-  for (const Field& field : cloud.fields)
-    fields.push_back ({field.name, valuesOf (field, cloud.rows)});
+  for (const Field& field : cloud.fields) {
+    Json values = Json::array (); // null where they are no numbers
+    visitType (field.type, [&] (auto tag) {
+      for (std::size_t row = 0; row < cloud.rows; ++row)
+        for (std::size_t c = 0; c < field.count; ++c)
+          values.push_back (static_cast<double> (field.value<decltype (tag)> (row, c)));
+    });
+    fields.push_back ({field.name, values});
+  }
   Json all{{"points", points},
            {"fields", fields},
            {"is_single", cloud.single_precision},

@@ -35,12 +35,6 @@ die ()
   ::syscall (SYS_kill, ::getpid (), SIGKILL);
 }
 
-int
-errorOf (const std::string& kind)
-{
-  return kind == "ENOSPC" ? ENOSPC : kind == "EINTR" ? EINTR : kind == "EACCES" ? EACCES : EIO;
-}
-
 // What is to happen to this call. Counts the calls of the name that is asked for.
 Fault
 faultOf (const char* call)
@@ -67,7 +61,7 @@ faultOf (const char* call)
     return Fault::KILL_AFTER;
   if (kind == "short")
     return Fault::SHORT;
-  errno = errorOf (kind);
+  errno = kind == "ENOSPC" ? ENOSPC : kind == "EINTR" ? EINTR : kind == "EACCES" ? EACCES : EIO;
   return Fault::ERROR;
 }
 

@@ -7,7 +7,8 @@ import struct
 import numpy as np
 import pytest
 from conftest import HAS_LZF, OUTPUT, USAGE
-from files import crosses, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of, table_text
+from files import (crosses, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of, spiral,
+                   table_text)
 
 NAN, PLY_KINDS = float("nan"), ("ascii", "binary_little_endian", "binary_big_endian")
 
@@ -277,9 +278,7 @@ def test_fields_of_every_type_are_kept(tool):
 @pytest.fixture
 def body(tool):
     """A closed body, so that there are seams: points of an ellipsoid, coloured by place."""
-    z = 1 - 2 * (np.arange(900) + 0.5) / 900
-    angle, radius = 2.399963 * np.arange(900), np.sqrt(1 - z * z)
-    unit = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)
+    unit = spiral(900, 2)
     tool.sample = sample_of(unit * (1, 1, 1.3), 127.5 * (unit + 1), unit)
     tool.write("in.ply", ply_bytes(tool.sample))
     return tool
@@ -367,9 +366,8 @@ def test_texture_of_any_size(tool):
     """Sizes whose squares are no numbers, and that no texture can hold together: no triangle is upside down, and the
     stretch is a number."""
     tool.write("large.xyz", "0 0 0\n1e154 0 0\n0 1e154 0\n1e154 1e154 1e153\n")
-    z, angle = 1 - 1.5 * np.arange(300) / 300, 2.399963 * np.arange(300)
-    unit = np.stack([np.sqrt(1 - z * z) * np.cos(angle), np.sqrt(1 - z * z) * np.sin(angle), z], -1)
-    np.savetxt(tool.path("mixed.xyz"), unit * 10 ** np.random.default_rng(21).uniform(-16, 21, (300, 1)), "%.9g")
+    sizes = 10 ** np.random.default_rng(21).uniform(-16, 21, (300, 1))
+    np.savetxt(tool.path("mixed.xyz"), spiral(300, 1.5) * sizes, "%.9g")
     for name in ("large", "mixed"):
         texture = tool.report("--uv", name + ".xyz")["texture"]
         assert texture["flipped"] == 0 and texture["stretch"] is not None, name  # infinite: null

@@ -5,7 +5,8 @@ allow."""
 import numpy as np
 import pytest
 from conftest import INPUT, RECONSTRUCTION, REFUSED, USAGE
-from files import OTHER_VALUES, crosses, json_of, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes, sample_of
+from files import (OTHER_VALUES, crosses, json_of, las_bytes, make_sample, obj_text, pcd_bytes, pcd_text, ply_bytes,
+                   sample_of, spiral)
 
 NAN = float("nan")
 
@@ -356,9 +357,7 @@ def test_strict_refuses_lost_points_and_poor_meshes(cloud):
 
 def test_the_report_tells_which_side_may_not_be_the_front(cloud):
     """A shallow bowl is half a body or a valley."""
-    depth = 1 - 0.6 * (np.arange(2000) + 0.5) / 2000  # three tenths of a sphere
-    angle, radius = 2.399963229728653 * np.arange(2000), np.sqrt(1 - depth**2)
-    cloud.write("bowl.pcd", pcd_text(np.stack([radius * np.cos(angle), radius * np.sin(angle), -depth], -1)))
+    cloud.write("bowl.pcd", pcd_text(spiral(2000, 0.6) * (1, 1, -1)))  # three tenths of a sphere
     told = "not sure   which side is the front of 1 part\n"
     assert told in cloud.succeed("bowl.pcd out.ply --verbose").out
     report = cloud.report("", "bowl.pcd")
