@@ -161,10 +161,6 @@ class Mesh:
         self.loops = sorted((ends[of_loop[ends] == loop] for loop in np.unique(of_loop[ends])), key=len, reverse=True)
         self.genus = (2 * self.components - self.euler - len(self.loops)) // 2
 
-    @classmethod
-    def read(cls, path):
-        return cls(*read_ply(path))
-
     def _graph(self, edges):
         return sparse.coo_matrix((np.ones(len(edges)), edges.T), shape=(len(self.points),) * 2)
 

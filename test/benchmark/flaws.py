@@ -75,7 +75,7 @@ def generated(tools, kind, variant, seed, folder):
     report = tools.reconstruct(folder / "points.ply", folder / "mesh.ply")
     if report["status"] != "SUCCESS":
         return collections.Counter(other=1)
-    mesh, check = bench.Mesh.read(folder / "mesh.ply"), report["check"]
+    mesh, check = bench.Mesh(*bench.read_ply(folder / "mesh.ply")), report["check"]
     loops = holes + 1 if kind not in ("sphere", "torus", "box") else 0
     other = (mesh.components != 1 or mesh.genus != (kind == "torus") or not mesh.manifold or mesh.folds > 0 or
              check["self_intersections"] or len(mesh.used) < 0.999 * len(mesh.points))
@@ -105,7 +105,7 @@ def measure_folder(tools, arguments, folder):
     before = json.loads(arguments.against.read_text()) if arguments.against else {}
     verdicts, clean, changes = {}, collections.Counter(), []
     for file in sorted(arguments.folder.glob("*.gt.ply")):
-        name, truth = file.name[:-len(".gt.ply")], bench.Mesh.read(file)
+        name, truth = file.name[:-len(".gt.ply")], bench.Mesh(*bench.read_ply(file))
         if len(truth.points) > arguments.most_points or arguments.only not in name:
             continue
         kind = "scans of use" if name.startswith("sensor_") else "clean"
@@ -113,7 +113,7 @@ def measure_folder(tools, arguments, folder):
         report = tools.reconstruct(cloud, folder / "mesh.ply")
         found, digest = [report["status"]], ""
         if report["status"] == "SUCCESS":
-            mesh = bench.Mesh.read(folder / "mesh.ply")
+            mesh = bench.Mesh(*bench.read_ply(folder / "mesh.ply"))
             digest = hashlib.sha256(mesh.triangles.tobytes()).hexdigest()
             found = (bench.flaws_of_scan if kind != "clean" else bench.flaws)(mesh, truth)
         verdicts[name] = {"flaws": found, "mesh": digest}

@@ -35,8 +35,7 @@ def terrain(n, seed=1):
 
 
 def lattice(n):
-    side = np.arange(round(n ** (1 / 3)))
-    return np.stack(np.meshgrid(side, side, side), axis=-1).reshape(-1, 3).astype(float)
+    return np.indices([round(n ** (1 / 3))] * 3).reshape(3, -1).T.astype(float)
 
 
 def curves(n):
@@ -113,12 +112,8 @@ def quadrilateral(n):
     return segments(n, list(zip(corners, np.roll(corners, -1, axis=0))))
 
 
-def cube_corners():
-    return np.array(np.meshgrid(*[[0, 1]] * 3)).reshape(3, 8).T
-
-
 def cube_edges(n):
-    corners = cube_corners()
+    corners = lattice(8)
     return np.unique(segments(n, [(a, b) for i, a in enumerate(corners) for b in corners[i + 1:]
                                   if abs(a - b).sum() == 1]), axis=0)
 
@@ -172,16 +167,6 @@ def dust(n, corners, ratio):
     for _ in range(40):
         at = ratio * at + (1 - ratio) * corners[random.integers(len(corners), size=n)]
     return at
-
-
-def lattice_walk(n):
-    return np.unique(np.eye(3)[rng().integers(3, size=2 * n)].cumsum(axis=0) % 40, axis=0)[:n]
-
-
-def hyperboloid(n):
-    """Sixteen straight lines on it."""
-    return segments(n, [((np.cos(a), np.sin(a), -1), (np.cos(a + 2), np.sin(a + 2), 1))
-                        for a in TURN * np.arange(16) / 16])
 
 
 def spike(n, around=50):
@@ -246,7 +231,7 @@ CLOUDS = (
     ("flat lattice", "all on circles",
      lambda n: np.stack([*np.divmod(np.arange(n), round(np.sqrt(n))), np.zeros(n)], axis=1)),
     ("cube lattice", "on the faces of a cube", cube_lattice),
-    ("Cantor dust", "of three dimensions", lambda n: dust(n, cube_corners(), 1 / 3)),
+    ("Cantor dust", "of three dimensions", lambda n: dust(n, lattice(8), 1 / 3)),
     ("Sierpinski", "the tetrahedron of that name",
      lambda n: dust(n, np.array([[0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]]), 0.5)),
     ("flat box", "random points, a millionth as high", lambda n: rng().random((n, 3)) * [1, 1, 1e-6]),
@@ -257,8 +242,11 @@ CLOUDS = (
     ("rings of a cone", "40 of them",
      lambda n: np.concatenate([circle(TURN * np.arange(n // 40) / (n // 40), r, 0.2 * r)
                                for r in np.linspace(0.1, 1, 40)])),
-    ("lattice walk", "a random walk on a lattice that is closed in itself", lattice_walk),
-    ("hyperboloid", "sixteen straight lines on one", hyperboloid),
+    ("lattice walk", "a random walk on a lattice that is closed in itself",
+     lambda n: np.unique(np.eye(3)[rng().integers(3, size=2 * n)].cumsum(axis=0) % 40, axis=0)[:n]),
+    ("hyperboloid", "sixteen straight lines on one",
+     lambda n: segments(n, [((np.cos(a), np.sin(a), -1), (np.cos(a + 2), np.sin(a + 2), 1))
+                            for a in TURN * np.arange(16) / 16])),
     ("far point", "a height field and one point far away",  # less far than what is taken for a gross outlier
      lambda n: np.append(terrain(n - 1), 300 * np.sqrt(n) * np.array([[1, 0.5, 0.2]]), axis=0)),
     ("band", "a narrow ring, all holes filled", band, *CLOSED),
