@@ -25,23 +25,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 LINK = re.compile(r"(?<!\\)\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^()\s]+)\)")
 MARKED_BLOCK = re.compile(
     r"^<!-- (quote: (?P<file>\S+)|run|output) -->\n\n?```\w*\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+CODE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]?\d+)?")
-
-
-def pages():
-    return [ROOT / "README.md"] + sorted((ROOT / "doc").glob("*.md"))
-
-
-def without_code(text):
-    text = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
-    return re.sub(r"`[^`\n]*`", "", text)
 
 
 def headings(path):
     """The anchors that GitHub makes of the headings of a page."""
     anchors = set()
-    text = re.sub(r"^```.*?^```$", "", path.read_text(), flags=re.MULTILINE | re.DOTALL)
-    for heading in re.findall(r"^#+ +(.*?) *$", text, re.MULTILINE):
+    for heading in re.findall(r"^#+ +(.*?) *$", CODE.sub("", path.read_text()), re.MULTILINE):
         anchor = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
         number = 0
         while anchor + (f"-{number}" if number else "") in anchors:
@@ -51,7 +42,7 @@ def headings(path):
 
 
 def check_links(page):
-    for target in LINK.findall(without_code(page.read_text())):
+    for target in LINK.findall(re.sub(r"`[^`\n]*`", "", CODE.sub("", page.read_text()))):
         if re.match(r"[a-z]+:", target):
             continue
         path, _, part = target.partition("#")
@@ -138,7 +129,7 @@ def check_runs(page, tools):
 def main():
     tools = [str(pathlib.Path(folder).resolve()) for folder in sys.argv[1:]]
     wrong, quoted = [], set()
-    for page in pages():
+    for page in [ROOT / "README.md"] + sorted((ROOT / "doc").glob("*.md")):
         if tools and page.name == "distributed.md" and not shutil.which("pcl_floater_distributed",
                                                                         path=os.pathsep.join(tools)):
             continue  # it is not built without MPI
