@@ -87,14 +87,20 @@ resample (const Outline& corners, double step)
   return outline;
 }
 
+/// Around the z axis.
+inline Eigen::Vector3d
+polar (double radius, double angle, double z = 0.0)
+{
+  return {radius * std::cos (angle), radius * std::sin (angle), z};
+}
+
 inline Outline
 circle (double radius, double step)
 {
   const int count = static_cast<int> (std::lround (2.0 * PI * radius / step));
   Outline outline;
   for (int i = 0; i < count; ++i)
-    outline.emplace_back (radius * std::cos (2.0 * PI * i / count),
-                          radius * std::sin (2.0 * PI * i / count));
+    outline.emplace_back (polar (radius, 2.0 * PI * i / count).head<2> ());
   return outline;
 }
 
@@ -144,6 +150,20 @@ fillOutlines (const std::vector<Outline>& outlines, double step, double jitter, 
   return sheet;
 }
 
+/// What a sensor at the origin sees of a wavy wall, one side of which may stand behind the other.
+inline Positions
+wallInView (std::size_t side, double step = 0.0)
+{
+  Positions points;
+  for (std::size_t i = 0; i < side * side; ++i) {
+    const double x = static_cast<double> (i % side) / static_cast<double> (side) - 0.5;
+    const double y = static_cast<double> (i / side) / static_cast<double> (side) - 0.5;
+    const double depth = 2.0 + 0.3 * std::sin (9.0 * x + 5.0 * y) + (x > 0.2 ? step : 0.0);
+    points.push_back (depth * Eigen::Vector3d (x, y, 1.0).normalized ());
+  }
+  return points;
+}
+
 /// A round sheet of radius 1 with points about `step` apart.
 inline Sheet
 disc (double step, std::uint64_t seed)
@@ -156,13 +176,8 @@ inline Positions
 evenSphere (std::size_t count, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero ())
 {
   Positions points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * static_cast<double> (i) + 1.0) / static_cast<double> (count);
-    const double angle = PI * (3.0 - std::sqrt (5.0)) * static_cast<double> (i);
-    const double radius = std::sqrt (1.0 - z * z);
-    points.push_back (centre +
-                      Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), z));
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    points.push_back (centre + spiralDirection (i, count));
   return points;
 }
 
@@ -268,10 +283,8 @@ areaOf (const std::vector<Outline>& outlines)
   double area = 0.0;
   for (const Outline& outline : outlines) {
     double twice = 0.0;
-    for (std::size_t i = 0; i < outline.size (); ++i) {
-      const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size ()];
-      twice += a.x () * b.y () - a.y () * b.x ();
-    }
+    for (std::size_t i = 0; i < outline.size (); ++i)
+      twice += cross (outline[i], outline[(i + 1) % outline.size ()]);
     area += (&outline == &outlines.front () ? 0.5 : -0.5) * std::abs (twice);
   }
   return area;

@@ -117,9 +117,7 @@ raysInRings (const Eigen::Vector3d& from, int rings, int in_ring, double lowest,
   for (int ring = 0; ring < rings; ++ring)
     for (int i = 0; i < in_ring; ++i) {
       const double azimuth = 2.0 * PI * i / in_ring, elevation = (lowest + step * ring) * DEGREE;
-      rays.push_back ({from,
-                       {std::cos (azimuth) * std::cos (elevation),
-                        std::sin (azimuth) * std::cos (elevation), std::sin (elevation)}});
+      rays.push_back ({from, polar (std::cos (elevation), azimuth, std::sin (elevation))});
     }
   return rays;
 }
@@ -175,21 +173,6 @@ scanScene (Raster raster, DepthNoise noise, std::uint64_t seed)
   return scan;
 }
 
-/// Rays of two turning prisms about +x, from the origin: a rosette of 140 leaves, whose curves cross.
-inline std::vector<ScanRay>
-raysInRosette (int count)
-{
-  std::vector<ScanRay> rays;
-  for (int i = 0; i < count; ++i) {
-    const double turn = 2.0 * PI * 20.0 * i / count;
-    const double y = 0.166 * (std::cos (7.0 * turn) + std::cos (-4.577 * turn));
-    const double z = 0.166 * (std::sin (7.0 * turn) + std::sin (-4.577 * turn));
-    const Eigen::Vector3d along (1.0, std::tan (y), std::tan (z));
-    rays.push_back ({Eigen::Vector3d::Zero (), along.normalized ()});
-  }
-  return rays;
-}
-
 /// Ground, walls and things around a sensor 1.6 above the ground, at the origin.
 inline Scene
 courtyard ()
@@ -216,8 +199,7 @@ scanYard (double width, double off, bool is_dense, std::uint64_t seed)
   place.z () = slope.dot (place) + between (random, 1.2, 2.6);
   for (int i = 0; i < 8; ++i) {
     const double angle = between (random, 0.0, 2.0 * PI), distance = between (random, 5.0, 25.0);
-    Eigen::Vector3d foot =
-        place + distance * Eigen::Vector3d (std::cos (angle), std::sin (angle), 0.0);
+    Eigen::Vector3d foot = place + polar (distance, angle);
     const bool is_post = i < 4;
     const double radius = is_post ? between (random, 0.1, 0.6) : between (random, 1.0, 4.0);
     foot.z () = slope.dot (foot) + (is_post ? 0.0 : radius);

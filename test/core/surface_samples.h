@@ -163,8 +163,7 @@ moebiusStrip (std::uint64_t seed)
   const Lift twisted = [] (const Eigen::Vector2d& p) {
     const double angle = p.x () / RADIUS, across = p.y () - 0.5 * WIDTH;
     const double r = RADIUS + across * std::cos (0.5 * angle);
-    return Eigen::Vector3d (r * std::cos (angle), r * std::sin (angle),
-                            across * std::sin (0.5 * angle));
+    return polar (r, angle, across * std::sin (0.5 * angle));
   };
   return sheet ({rectangle (2.0 * PI * RADIUS, WIDTH)}, twisted, seed, true);
 }
@@ -178,9 +177,8 @@ lattice (const Eigen::Vector2d& up)
   KnownSurface made;
   made.loops = 1;
   for (int i = 0; i < SIDE; ++i)
-    for (int j = 0; j < SIDE; ++j) {
+    for (int j = 0; j < SIDE; ++j)
       made.points.emplace_back (j + i * up.x (), i * up.y (), 0.0);
-    }
   made.area = (SIDE - 1) * (SIDE - 1) * up.y ();
   return made;
 }
@@ -243,16 +241,9 @@ densityStep (int ratio, std::uint64_t seed)
   KnownSurface made;
   made.loops = 1;
   made.is_even = false;
-  const auto add = [&] (double x, double y, double step) {
-    const double dx = random.uniform () - 0.5, dy = random.uniform () - 0.5;
-    made.points.emplace_back (x + JITTER * step * dx, y + JITTER * step * dy, 0.0);
-  };
-  for (int i = -20; i < 0; ++i)
-    for (int j = 0; j <= 8 * ratio; ++j)
-      add (i, j, 1.0);
-  for (int i = 0; i <= 8; ++i)
-    for (int j = 0; j <= 8; ++j)
-      add ((i + 0.5) * ratio, j * ratio, ratio);
+  made.points = placed (jitteredGrid (20, 8 * ratio + 1, 1.0, JITTER, random), {-20.1, -0.1, 0.0});
+  made.points = joined (made.points, placed (jitteredGrid (9, 9, ratio, JITTER, random),
+                                             {0.4 * ratio, -0.1 * ratio, 0.0}));
   return made;
 }
 

@@ -130,8 +130,7 @@ turns (double steps, double noise)
   for (int i = 0; i < 3 * POINTS; ++i) {
     const double angle = STEP * i,
                  radius = 1.0 + 0.2 * std::sin (3.0 * angle) + noise * STEP * random.normal ();
-    points.emplace_back (radius * std::cos (angle), steps * STEP * (i / POINTS),
-                         radius * std::sin (angle));
+    points.push_back (polar (radius, angle, steps * STEP * (i / POINTS)));
   }
   return points;
 }
@@ -146,10 +145,8 @@ TEST (RunStatus, TurnsTooFarApartAreNoSurface)
     meshOf (turns (5.0, noise));
   // The rays to points of a spiral, which fill a plate, have steps of two or three sizes.
   Positions plates;
-  for (int i = 0; i < 3 * 300; ++i) {
-    const double radius = std::sqrt (i % 300 + 0.5), angle = 2.399963 * i;
-    plates.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 40.0 * (i / 300));
-  }
+  for (int i = 0; i < 3 * 300; ++i)
+    plates.push_back (polar (std::sqrt (i % 300 + 0.5), 2.399963 * i, 40.0 * (i / 300)));
   meshOf (plates);
 }
 

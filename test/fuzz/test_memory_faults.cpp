@@ -153,20 +153,6 @@ struct Way
   Options options;
 };
 
-// A bent wall with a step in it, as a camera at the origin sees it.
-Positions
-makeScan (int width)
-{
-  Positions scan;
-  for (int row = 0; row < width; ++row)
-    for (int column = 0; column < width; ++column) {
-      const double x = (column + 0.5) / width - 0.5, y = (row + 0.5) / width - 0.5;
-      const double depth = (x > 0.2 ? 3.0 : 2.0) + 0.1 * std::sin (9.0 * y);
-      scan.emplace_back (depth * x, depth * y, depth);
-    }
-  return scan;
-}
-
 std::vector<Way>
 allWays (std::size_t points)
 {
@@ -190,9 +176,9 @@ allWays (std::size_t points)
                         make ("ordered", SurfaceKind::HEIGHT_FIELD, ordered),
                         make ("surface", SurfaceKind::HEMISPHERE, surface),
                         make ("balls", SurfaceKind::TORUS, balls)};
-  const auto width = static_cast<int> (std::sqrt (static_cast<double> (points)));
+  const auto width = static_cast<std::size_t> (std::sqrt (static_cast<double> (points)));
   view.threads = 1;
-  ways.push_back ({"view", asInput (makeScan (width)), view});
+  ways.push_back ({"view", asInput (samples::wallInView (width, 1.0)), view});
   return ways;
 }
 

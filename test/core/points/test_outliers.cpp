@@ -207,30 +207,6 @@ TEST (Outliers, SmallClustersFarAwayButNotSmallComponents)
 
 constexpr double NO_VALUE = -9999.0;
 
-// What a sensor at the origin sees of a wavy wall.
-Positions
-frame (std::size_t side)
-{
-  Positions points;
-  for (std::size_t i = 0; i < side * side; ++i) {
-    const double x = static_cast<double> (i % side) / static_cast<double> (side) - 0.5;
-    const double y = static_cast<double> (i / side) / static_cast<double> (side) - 0.5;
-    points.push_back ((2.0 + 0.3 * std::sin (9.0 * x + 5.0 * y)) *
-                      Eigen::Vector3d (x, y, 1.0).normalized ());
-  }
-  return points;
-}
-
-// Every fifth point is at a place, or near it.
-Positions
-withPlace (Positions points, const Eigen::Vector3d& place, double radius = 0.0)
-{
-  RandomStream random (3);
-  for (std::size_t i = 0; i < points.size (); i += 5)
-    points[i] = place + radius * Eigen::Vector3d (random.uniform (), random.uniform (), 0.0);
-  return points;
-}
-
 // A grid of heights around `level`, in map coordinates, of which some cells have another value.
 Positions
 heights (double level, double value)
@@ -259,16 +235,22 @@ TEST (InvalidPoints, PixelsWithoutReturn)
   const Eigen::Vector3d origin (0, 0, 0);
   for (const std::size_t side : {12U, 40U, 160U}) {
     SCOPED_TRACE (side);
-    const Positions all = frame (side);
+    const Positions all = wallInView (side);
+    Positions at_origin = all, near_it = all; // every fifth point
+    RandomStream random (3);
+    for (std::size_t i = 0; i < all.size (); i += 5) {
+      at_origin[i] = origin;
+      near_it[i] = 5e-3 * uniformVector (random);
+    }
     const std::size_t fifth = (all.size () + 4) / 5;
     expectInvalid (all, 0, 0);
-    expectInvalid (withPlace (all, origin), fifth, 0);
-    expectInvalid (withPlace (all, origin, 5e-3), fifth, 0);
-    expectInvalid (placed (withPlace (all, origin), ON_A_MAP), fifth, 0); // where the sensor was
-    expectInvalid (placed (withPlace (all, origin), -ON_A_MAP), fifth, 0, ON_A_MAP);
+    expectInvalid (at_origin, fifth, 0);
+    expectInvalid (near_it, fifth, 0);
+    expectInvalid (placed (at_origin, ON_A_MAP), fifth, 0); // where the sensor was
+    expectInvalid (placed (at_origin, -ON_A_MAP), fifth, 0, ON_A_MAP);
   }
   // Most points are.
-  expectInvalid (joined (Positions (9000, origin), frame (40)), 9000, 0);
+  expectInvalid (joined (Positions (9000, origin), wallInView (40)), 9000, 0);
 }
 
 // The origin is on the surface, or a point of many is on a coarse lattice.
@@ -277,7 +259,7 @@ TEST (InvalidPoints, RepeatedPointsOfASurface)
   Positions disc, lattice, cone;
   for (int i = 0; i < 3000; ++i) {
     const double angle = i % 60 * 0.10472, radius = i / 60 * 0.02;
-    disc.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 0.1 * radius);
+    disc.push_back (polar (radius, angle, 0.1 * radius));
     cone.emplace_back (Eigen::Vector3d (5, 5, 5) + disc.back ());
     lattice.emplace_back (std::round (3.0 * disc.back ().x ()),
                           std::round (3.0 * disc.back ().y ()), 0.0);
@@ -291,7 +273,7 @@ TEST (InvalidPoints, RepeatedPointsOfASurface)
   // A small thing in the middle of a large one.
   const Positions small = placed (surface (SurfaceKind::TORUS, 3000), {0, 0, 0}, 1e-4);
   expectInvalid (joined (small, torus), 0, 0);
-  expectInvalid (joined (frame (100), placed (small, {0, 0, 0}, 30.0)), 0, 0);
+  expectInvalid (joined (wallInView (100), placed (small, {0, 0, 0}, 30.0)), 0, 0);
 }
 
 TEST (InvalidPoints, CellsWithoutData)

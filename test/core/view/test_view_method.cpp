@@ -89,10 +89,8 @@ TEST (ViewMethod, FewRingsMakeNoCurtains)
     hall.things.clear ();
     for (int i = 0; i < 30; ++i) {
       const double angle = 12.0 * i * DEGREE, distance = 1.3 + 0.3 * (i % 3);
-      hall.things.push_back ({{distance * std::cos (angle), distance * std::sin (angle),
-                               distance * (random.uniform () - 0.5) * 0.4},
-                              0.1,
-                              false});
+      const double height = distance * (random.uniform () - 0.5) * 0.4;
+      hall.things.push_back ({polar (distance, angle, height), 0.1, false});
     }
     const Scan scan = castRays (hall, raysInRings (Eigen::Vector3d::Zero (), 16, 1800, -15.0, 2.0),
                                 {0.002, 0.0}, random);
@@ -124,10 +122,7 @@ TEST (ViewMethod, GroundSeenAtAGrazingAngleIsWhole)
     for (int i = 0; i < 12; ++i) {
       const double angle = 30.0 * i * DEGREE, distance = 12.0 + 20.0 * random.uniform (),
                    radius = 300.0, height = 0.15 + 0.15 * random.uniform ();
-      hills.things.push_back (
-          {{distance * std::cos (angle), distance * std::sin (angle), height - radius},
-           radius,
-           false});
+      hills.things.push_back ({polar (distance, angle, height - radius), radius, false});
     }
     const Scan scan = castRays (hills, raysInRings ({0.0, 0.0, 1.7}, 32, 1800, -25.0, 35.0 / 31.0),
                                 {0.0005, 0.0}, random);
