@@ -1,14 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vertices taken out and put back elsewhere, undone changes; repair of folds and of triangles that cross; the ridges that it keeps.
+// Vertices taken out and put back elsewhere, undone changes; repair of folds and of triangles that cross; the ridges
+// that it keeps. The insertion of missing points, and what the end of a mesh repairs.
 #include "mesh/flaw_repair.h"
 
+#include "floater/planar_delaunay.h"
+#include "mesh/finish.h"
 #include "mesh/flips.h"
 #include "mesh/folds.h"
+#include "mesh/insertion.h"
 #include "mesh/known_meshes.h"
 #include "mesh/vertex_mover.h"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace pcl::floater {
 namespace {
@@ -23,13 +29,10 @@ Mesh
 jittered (double z, std::uint64_t seed)
 {
   RandomStream random (seed);
-  Mesh mesh = cells (GRID_SIDE - 1, GRID_SIDE - 1,
-                     [&] (Index x, Index y) { return Eigen::Vector3d (x, y, z); });
-  for (Eigen::Vector3d& p : mesh.positions) {
-    p.y () += 0.2 * random.uniform ();
-    p.x () += 0.2 * random.uniform ();
-  }
-  return mesh;
+  return cells (GRID_SIDE - 1, GRID_SIDE - 1, [&] (Index x, Index y) {
+    const double dy = 0.2 * random.uniform ();
+    return Eigen::Vector3d (x + 0.2 * random.uniform (), y + dy, z);
+  });
 }
 
 struct Sheets : TwoSheets
@@ -60,6 +63,23 @@ struct Sheets : TwoSheets
 
   CrossingPairs crossing () const { return findSelfIntersections (mesh.triangles, positions, 1); }
 
+  // Of all triangles and edges.
+  double costOfMesh () const
+  {
+    const auto normalOf = [this] (const Triangle& t) {
+      return cost.value (t[0], t[1], t[2]).unit_normal;
+    };
+    double sum = 0.0;
+    for (Index t = 0; t < mesh.triangles.size (); ++t) {
+      const Triangle& corners = mesh.triangles[t];
+      sum += cost (corners[0], corners[1], corners[2]);
+      for (Index u : mesh.neighbors[t])
+        if (u != NONE && t < u)
+          sum += cost.ofEdge (normalOf (corners), normalOf (mesh.triangles[u]));
+    }
+    return sum;
+  }
+
   // Expects two discs of all points, and what is told of the pairs that are left.
   Repairs repair (const RepairLimits& limits = {}, Repair when = Repair::BEFORE_REMAKING)
   {
@@ -71,24 +91,6 @@ struct Sheets : TwoSheets
     return done;
   }
 };
-
-// Of all triangles and edges.
-double
-costOfMesh (const TriangleMesh& mesh, const TriangleCost& cost)
-{
-  double sum = 0.0;
-  for (Index t = 0; t < mesh.triangles.size (); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    sum += cost (a, b, c);
-    for (Index u : mesh.neighbors[t])
-      if (u != NONE && t < u)
-        sum += cost.ofEdge (
-            cost.value (a, b, c).unit_normal,
-            cost.value (mesh.triangles[u][0], mesh.triangles[u][1], mesh.triangles[u][2])
-                .unit_normal);
-  }
-  return sum;
-}
 
 TEST (FlawRepair, ChangesAreConsistentAndAreUndoneWithoutATrace)
 {
@@ -144,11 +146,11 @@ TEST (FlawRepair, RemovesFoldsBetweenSheetsWhoseVerticesAreMixedUp)
     sheets.mixUp (1 + seed % 4, seed);
     flipEdges (sheets.mesh, sheets.cost, 1);
     const std::size_t folds = sheets.folds (), pairs = sheets.crossing ().size ();
-    const double before = costOfMesh (sheets.mesh, sheets.cost);
+    const double before = sheets.costOfMesh ();
     sheets.repair ();
     EXPECT_LE (sheets.folds (), folds);
     EXPECT_LE (sheets.crossing ().size (), pairs);
-    EXPECT_LE (costOfMesh (sheets.mesh, sheets.cost), before);
+    EXPECT_LE (sheets.costOfMesh (), before);
     left += sheets.folds ();
   }
   EXPECT_EQ (left, 0U);
@@ -332,6 +334,66 @@ TEST (Ridges, PointsThereGetTheNormalsOfTheMesh)
                0.0F)
         << p;
   EXPECT_EQ (normals[3], Eigen::Vector3f::UnitZ ()) << "not made in space: only turned";
+}
+
+// A round sheet laid out as it is, some of whose inner points have no place in the plane.
+TEST (Insertion, PutsEveryPointIn)
+{
+  const double nowhere = std::numeric_limits<double>::quiet_NaN ();
+  const Sheet sheet = disc (0.07, 7);
+  const auto [points, geometry] = makeNeighborhoods (sheet.positions);
+  std::vector<Index> loop (sheet.border);
+  std::vector<Eigen::Vector2d> uv;
+  RandomStream random (8);
+  std::size_t missing = 0;
+  for (Index p = 0; p < points.size (); ++p) {
+    uv.emplace_back (points.positions[p].head<2> ());
+    if (const Index at = points.cloud_index[p]; at < sheet.border)
+      loop[at] = p;
+    else if (random.uniform () < 0.2) {
+      uv[p].setConstant (nowhere);
+      ++missing;
+    }
+  }
+  TriangleMesh mesh = triangulatePlane (uv, loop);
+  const std::vector<Eigen::Vector3f> normals (points.size (), Eigen::Vector3f::UnitZ ());
+  const TriangleCost cost (points.positions, normals);
+  EXPECT_EQ (insertMissingPoints (mesh, geometry.neighbors, cost, false, 1), missing);
+  expectDisc (mesh, points.size ());
+  EXPECT_EQ (insertMissingPoints (mesh, geometry.neighbors, cost, false, 1), 0U);
+}
+
+TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)
+{
+  const Input input =
+      asInput (generateSurface ({SurfaceKind::FOLDED_SHEET, 3000, 1, 1.0, 0.25, 0.0, 1.5}));
+  Options options;
+  const Report repaired = reconstruct (input, options).report;
+  options.remove_self_intersections = false;
+  const Report left = reconstruct (input, options).report;
+  EXPECT_GT (left.check.self_intersections, 0U);
+  EXPECT_EQ (left.statistics.self_intersections_found, left.check.self_intersections);
+  EXPECT_EQ (repaired.statistics.self_intersections_found, left.check.self_intersections);
+  EXPECT_LT (repaired.check.self_intersections, left.check.self_intersections);
+  EXPECT_EQ (left.statistics.self_intersection_flips + left.statistics.remade_points, 0U);
+}
+
+// Noise is repaired once, after the points that lie on others are back.
+TEST (Finish, NoiseOfStackedPointsIsRepaired)
+{
+  Positions positions = surface (SurfaceKind::TORUS, 3000, 1.0);
+  RandomStream random (7);
+  const std::size_t alone = positions.size ();
+  for (std::size_t p = 0; p < alone; ++p)
+    positions.emplace_back (positions[p] + 0.002 * normalVector (random));
+  const Input input = asInput (positions);
+  Options options;
+  const Report repaired = reconstruct (input, options).report;
+  options.remove_self_intersections = false;
+  const Report left = reconstruct (input, options).report;
+  EXPECT_GT (left.statistics.stacked_points, 2000U);
+  EXPECT_GT (left.check.self_intersections, 100U);
+  EXPECT_LT (2 * repaired.check.self_intersections, left.check.self_intersections);
 }
 
 } // namespace

@@ -23,7 +23,7 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
     for (std::size_t i = 0; i < count; ++i) {
       const double angle = 2.0 * PI * static_cast<double> (i) / static_cast<double> (count);
       const double radius = 1.0 + 0.3 * std::sin (3.0 * angle) + 0.01 * random.uniform ();
-      positions.emplace_back (radius * std::cos (angle), radius * std::sin (angle), 0.0);
+      positions.push_back (polar (radius, angle));
     }
     double exact = 0.0;
     for (const Eigen::Vector3d& p : positions)
@@ -185,27 +185,24 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   EXPECT_EQ (border.open_share, 1.0); // half a turn, or more at the corners
 }
 
-// Loops of these widths and log odds. Their spacings differ, which does not matter.
-std::vector<double>
-oddsTogether (const std::vector<std::pair<double, double>>& loops)
-{
-  std::vector<BoundaryLoop> all (loops.size ());
-  std::vector<BoundaryLoop*> judged;
-  for (std::size_t i = 0; i < loops.size (); ++i) {
-    all[i].width = loops[i].first;
-    all[i].spacing = 1.0 + static_cast<double> (i);
-    all[i].judgement.log_odds = loops[i].second;
-    judged.push_back (&all[i]);
-  }
-  judgeTogether (judged, {});
-  std::vector<double> odds;
-  for (const BoundaryLoop& loop : all)
-    odds.push_back (loop.judgement.log_odds);
-  return odds;
-}
-
 TEST (LoopEvidence, OfLoopsOfOneWidthIsJudgedTogether)
 {
+  // Loops of these widths and log odds. Their spacings differ, which does not matter.
+  const auto oddsTogether = [] (const std::vector<std::pair<double, double>>& loops) {
+    std::vector<BoundaryLoop> all (loops.size ());
+    std::vector<BoundaryLoop*> judged;
+    for (std::size_t i = 0; i < loops.size (); ++i) {
+      all[i].width = loops[i].first;
+      all[i].spacing = 1.0 + static_cast<double> (i);
+      all[i].judgement.log_odds = loops[i].second;
+      judged.push_back (&all[i]);
+    }
+    judgeTogether (judged, {});
+    std::vector<double> odds;
+    for (const BoundaryLoop& loop : all)
+      odds.push_back (loop.judgement.log_odds);
+    return odds;
+  };
   EXPECT_EQ (oddsTogether ({{8.0, 0.5}, {10.0, -0.7}, {5.0, 2.0}}),
              (std::vector<double>{0.5, -0.7, 2.0}));
   EXPECT_EQ (oddsTogether ({{8.0, 1.25}, {8.1, -0.5}, {7.6, 1.0}, {8.3, 0.25}}),

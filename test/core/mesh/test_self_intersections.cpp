@@ -44,31 +44,24 @@ TEST (SelfIntersections, TwoTrianglesThatShareACornerOrAnEdge)
 }
 
 // Triangles with corners anywhere, which cross hundreds of times and share no corner; and fans.
-Mesh
-randomTriangles (std::size_t triangles, std::size_t fans, std::uint64_t seed)
-{
-  RandomStream random (seed);
-  const auto anywhere = [&random] { return uniformVector (random); };
-  Mesh triangle{{}, {{0, 1, 2}}}, fan, all;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    triangle.positions = {0.2 * anywhere (), 0.2 * anywhere (), 0.2 * anywhere ()};
-    append (all, triangle, anywhere ());
-  }
-  for (Index i = 0; i < 7; ++i)
-    fan.triangles.push_back ({0, 1 + i, 1 + (i + 1) % 7});
-  for (std::size_t f = 0; f < fans; ++f) {
-    fan.positions.assign (1, Eigen::Vector3d::Zero ());
-    for (int i = 0; i < 7; ++i)
-      fan.positions.emplace_back (0.2 * (anywhere () - Eigen::Vector3d::Constant (0.5)));
-    append (all, fan, anywhere ());
-  }
-  return all;
-}
-
 TEST (SelfIntersections, AllPairsAreFound)
 {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Mesh mesh = randomTriangles (150, 60, seed);
+    RandomStream random (seed);
+    const auto anywhere = [&random] { return uniformVector (random); };
+    Mesh triangle{{}, {{0, 1, 2}}}, fan, mesh;
+    for (int t = 0; t < 150; ++t) {
+      triangle.positions = {0.2 * anywhere (), 0.2 * anywhere (), 0.2 * anywhere ()};
+      append (mesh, triangle, anywhere ());
+    }
+    for (Index i = 0; i < 7; ++i)
+      fan.triangles.push_back ({0, 1 + i, 1 + (i + 1) % 7});
+    for (int f = 0; f < 60; ++f) {
+      fan.positions.assign (1, Eigen::Vector3d::Zero ());
+      for (int i = 0; i < 7; ++i)
+        fan.positions.emplace_back (0.2 * (anywhere () - Eigen::Vector3d::Constant (0.5)));
+      append (mesh, fan, anywhere ());
+    }
     std::vector<CrossingPair> all;
     for (Index t = 0; t < mesh.triangles.size (); ++t)
       for (Index u = t + 1; u < mesh.triangles.size (); ++u)

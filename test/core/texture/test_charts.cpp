@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts, their layouts, and how these are measured.
 #include "core/geometry.h"
-#include "mesh/facing_cases.h"
 #include "mesh/known_meshes.h"
 #include "texture/chart_layout.h"
 #include "texture/charts.h"
@@ -28,14 +27,6 @@ layOut (const Mesh& mesh, const DescentLimits& limits = {})
   return layOutChart (mesh.triangles, indices (mesh.triangles.size ()), mesh.positions, limits, 1);
 }
 
-StretchSums
-stretchOfOne (const std::array<Eigen::Vector3d, 3>& place, const std::array<Eigen::Vector2d, 3>& uv)
-{
-  StretchSums sums;
-  sums.add (place, uv);
-  return sums;
-}
-
 double
 meanStretch (const MeshPiece& chart, const Plane& uv)
 {
@@ -46,17 +37,21 @@ meanStretch (const MeshPiece& chart, const Plane& uv)
 TEST (Stretch, OfKnownMaps)
 {
   const std::array<Eigen::Vector3d, 3> place{{{0, 0, 5}, {2, 0, 5}, {0, 2, 5}}};
+  StretchSums sums; // of one triangle each time
   // Twice as wide in the plane as it is: singular values 1 and 1/2 of what they were.
-  StretchSums sums = stretchOfOne (place, {{{0, 0}, {2, 0}, {0, 1}}});
+  sums.add (place, {{{0, 0}, {2, 0}, {0, 1}}});
   EXPECT_DOUBLE_EQ (sums.mean (), std::sqrt (0.5 * (1.0 + 4.0) / 2.0));
   EXPECT_DOUBLE_EQ (sums.largest (), std::sqrt (2.0));
-  sums = stretchOfOne (place, {{{0, 0}, {1, 0}, {1, 1}}}); // sheared by one
+  sums = {};
+  sums.add (place, {{{0, 0}, {1, 0}, {1, 1}}}); // sheared by one
   EXPECT_DOUBLE_EQ (sums.mean (), std::sqrt (1.5));
   EXPECT_NEAR (sums.largest (), 0.5 * (1.0 + std::sqrt (5.0)), 1e-12);
   // Flipped: infinite. Without an area in space: not counted.
-  sums = stretchOfOne (place, {{{0, 0}, {0, 1}, {1, 0}}});
+  sums = {};
+  sums.add (place, {{{0, 0}, {0, 1}, {1, 0}}});
   EXPECT_TRUE (std::isinf (sums.mean ()) && std::isinf (sums.largest ()));
-  sums = stretchOfOne ({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, {{{0, 0}, {1, 0}, {0, 1}}});
+  sums = {};
+  sums.add ({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, {{{0, 0}, {1, 0}, {0, 1}}});
   EXPECT_EQ (sums.mean (), 1.0);
 }
 
@@ -99,11 +94,8 @@ TEST (DistortionDescent, GetsOnWhereTrianglesAreAllButDegenerate)
   Mesh bag = grid (
       ROUND, RINGS, 1 + RINGS * ROUND, // the lowest ring is one point
       [] (Index x, Index y) { return y == 0 ? 0 : 1 + (y - 1) * ROUND + x % ROUND; },
-      [] (Index x, Index y) -> Eigen::Vector3d {
-        const double angle = 2.0 * PI * x / ROUND;
-        if (y == 0)
-          return {0.0, 0.0, -0.5};
-        return {std::cos (angle), std::sin (angle), 0.4 * (y - 1)};
+      [] (Index x, Index y) {
+        return y == 0 ? polar (0.0, 0.0, -0.5) : polar (1.0, 2.0 * PI * x / ROUND, 0.4 * (y - 1));
       });
   bag.triangles.erase (std::remove_if (bag.triangles.begin (), bag.triangles.end (),
                                        [] (const Triangle& t) { return t[0] == t[1]; }),
@@ -159,12 +151,11 @@ TEST (ChartLayout, RefinedForOtherPositions)
 TEST (ChartLayout, NothingLiesAboveItself)
 {
   const Mesh stairs = cells (60, 4, [] (Index x, Index y) {
-    const double angle = 3.0 * PI * x / 60.0, radius = 2.0 - 0.3 * y;
-    return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.02 * x);
+    return polar (2.0 - 0.3 * y, 3.0 * PI * x / 60.0, 0.02 * x);
   });
   const Mesh roll = cells (7, 79, [] (Index x, Index y) {
-    const double angle = 0.2 * y, radius = 1.0 + 0.1 * angle;
-    return Eigen::Vector3d (radius * std::cos (angle), radius * std::sin (angle), 0.2 * x);
+    const double angle = 0.2 * y;
+    return polar (1.0 + 0.1 * angle, angle, 0.2 * x);
   });
   DescentLimits limits;
   limits.most_on_circle = roll.triangles.size ();
