@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The linear system, and all solvers in all orders, on systems whose solution is known.
+// The linear system, and all solvers in all orders, on systems whose solution is known; the connection of all points
+// with the loop.
 #include "floater/solvers/solver_parts.h"
+
+#include "floater/floater_method.h"
 #include "floater/weights.h"
 #include "options/option_rows.h"
 #include "samples.h"
@@ -65,25 +68,6 @@ systemOf (const Entries& entries, const Eigen::MatrixX2d& rhs)
   return system;
 }
 
-// Random entries and a dominant diagonal. The pattern is not symmetric.
-LinearSystem
-randomSystem (int n, RandomStream& random)
-{
-  Entries all;
-  for (int i = 0; i < n; ++i) {
-    std::map<int, double> entries;
-    double sum = 0.1;
-    for (int entry = 0; entry < 5; ++entry)
-      sum += std::abs (entries[static_cast<int> (random.below (static_cast<std::size_t> (n)))] =
-                           2.0 * random.uniform () - 1.0);
-    entries[i] = 2.0 * sum;
-    for (const auto& [column, value] : entries)
-      all.emplace_back (i, column, value);
-  }
-  return systemOf (all,
-                   Eigen::MatrixX2d::NullaryExpr (n, 2, [&] { return random.uniform () - 0.5; }));
-}
-
 void
 expectFailure (const Solution& solution, RunStatus status)
 {
@@ -136,8 +120,21 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
       squareSystem (14, 1), squareSystem (14, 1, Weighting::SHAPE_PRESERVING),
       systemOf ({{0, 0, 1.0}, {1, 1, 2.0}, {2, 2, 4.0}}, // no unknown has a neighbour
                 Eigen::MatrixX2d::Ones (3, 2))};
-  for (const int n : {1, 2, 10, 300})
-    systems.push_back (randomSystem (n, random));
+  for (const int n : {1, 2, 10, 300}) { // random entries and a dominant diagonal, not symmetric
+    Entries all;
+    for (int i = 0; i < n; ++i) {
+      std::map<int, double> entries;
+      double sum = 0.1;
+      for (int entry = 0; entry < 5; ++entry)
+        sum += std::abs (entries[static_cast<int> (random.below (static_cast<std::size_t> (n)))] =
+                             2.0 * random.uniform () - 1.0);
+      entries[i] = 2.0 * sum;
+      for (const auto& [column, value] : entries)
+        all.emplace_back (i, column, value);
+    }
+    systems.push_back (systemOf (
+        all, Eigen::MatrixX2d::NullaryExpr (n, 2, [&] { return random.uniform () - 0.5; })));
+  }
   systems[5].rhs.col (0).setZero ();
   for (std::size_t i = 0; i < systems.size (); ++i)
     for (const auto& [solver_name, solver] : SOLVER_CHOICES)
@@ -261,6 +258,33 @@ TEST (Solvers, ThatIterateStopAtTheToleranceOrTellThatTheyDoNot)
   }
   EXPECT_LT (iterations[0], 25U);
   EXPECT_GT (iterations[1], 20 * iterations[0]); // Gauss-Seidel is here only for comparison
+}
+
+TEST (Reachability, MatchesItsDefinitionOnRandomGraphs)
+{
+  RandomStream random (2);
+  for (std::uint32_t round = 0; round < 50; ++round) {
+    const std::size_t count = 5 + random.below (60);
+    CsrLists rows{{0}, {}};
+    while (rows.rows () < count) {
+      for (std::size_t i = random.below (2 + round % 2); i > 0; --i)
+        rows.ids.push_back (static_cast<Index> (random.below (count)));
+      rows.offsets.push_back (static_cast<Index> (rows.ids.size ()));
+    }
+    // The definition instead of the algorithm: follows the rows until nothing changes.
+    std::vector<std::uint8_t> reachable (count, 0);
+    reachable[0] = reachable[1] = 1;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t p = 0; p < count; ++p)
+        for (const Index q : rows.row (p))
+          if (reachable[p] == 0 && reachable[q] != 0) {
+            reachable[p] = 1;
+            changed = true;
+          }
+    }
+    EXPECT_EQ (reachLoop (rows, {0, 1}, 1), reachable);
+  }
 }
 
 } // namespace
