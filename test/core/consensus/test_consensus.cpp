@@ -30,26 +30,6 @@ candidate (const Triangle& corners, std::uint8_t down, std::uint8_t votes = 3)
   return {corners, votes, down, false, 1.0F, 1.0F};
 }
 
-std::vector<std::uint8_t>
-sidesOf (Orientation& orientation, std::size_t points)
-{
-  std::vector<Eigen::Vector3f> normals (points, Eigen::Vector3f::UnitZ ());
-  orientation.turn (normals, 1);
-  std::vector<std::uint8_t> sides;
-  for (const Eigen::Vector3f& normal : normals)
-    sides.push_back (normal.z () > 0.0F ? 0 : 1);
-  return sides;
-}
-
-void
-vote (Orientation& orientation, const std::vector<Candidate>& candidates)
-{
-  std::vector<const Candidate*> pointers;
-  for (const Candidate& each : candidates)
-    pointers.push_back (&each);
-  orientation.vote (pointers.data (), pointers.data () + pointers.size (), 1);
-}
-
 TEST (Orientation, TheMajorityOfVotesDecides)
 {
   // Two sets of points, 0 to 2 and 3 to 5, and candidates between them.
@@ -57,11 +37,16 @@ TEST (Orientation, TheMajorityOfVotesDecides)
     Orientation orientation (6);
     ASSERT_TRUE (orientation.join ({0, 1, 2}, 0));
     ASSERT_TRUE (orientation.join ({3, 4, 5}, 0));
-    vote (orientation,
-          {candidate ({0, 1, 3}, 0), candidate ({1, 2, 4}, 4, 2),
-           candidate ({2, 0, 5}, 4, static_cast<std::uint8_t> (is_more_opposite ? 3 : 0))});
-    const std::vector<std::uint8_t> sides = sidesOf (orientation, 6);
-    EXPECT_EQ (sides[0] != sides[3], is_more_opposite);
+    const std::vector<Candidate> candidates{
+        candidate ({0, 1, 3}, 0), candidate ({1, 2, 4}, 4, 2),
+        candidate ({2, 0, 5}, 4, static_cast<std::uint8_t> (is_more_opposite ? 3 : 0))};
+    std::vector<const Candidate*> voters;
+    for (const Candidate& each : candidates)
+      voters.push_back (&each);
+    orientation.vote (voters.data (), voters.data () + voters.size (), 1);
+    std::vector<Eigen::Vector3f> normals (6, Eigen::Vector3f::UnitZ ());
+    orientation.turn (normals, 1);
+    EXPECT_EQ (normals[0].z () != normals[3].z (), is_more_opposite);
   }
 }
 
@@ -122,32 +107,6 @@ TEST (ManifoldPart, HasNoSmallIslandsButBodies)
   EXPECT_EQ (partOf ({island, sheet}, {3, 3}, neighbors, 9).triangles.size (), 5);
 }
 
-// The points of the lattice of 3 x 3 x 3 whose bits are set.
-Positions
-crumbOf (std::uint32_t bits)
-{
-  Positions points;
-  for (Index i = 0; i < 27; ++i)
-    if ((bits >> i & 1U) != 0)
-      points.emplace_back (i % 3, i / 3 % 3, i / 9);
-  return points;
-}
-
-// The distances from each point to all, which are the same of crumbs that can be moved onto each other.
-std::vector<std::vector<double>>
-distancesOf (const Positions& crumb)
-{
-  std::vector<std::vector<double>> all;
-  for (const Eigen::Vector3d& p : crumb) {
-    std::vector<double>& squares = all.emplace_back ();
-    for (const Eigen::Vector3d& q : crumb)
-      squares.push_back ((p - q).squaredNorm ());
-    std::sort (squares.begin (), squares.end ());
-  }
-  std::sort (all.begin (), all.end ());
-  return all;
-}
-
 // Crumbs may have several closed fans. Each ends as a manifold, or is refused for a reason of its
 // own: all of up to 5 points that are distinct, and samples of 6 to 10 around the middle.
 // PCL_FLOATER_CRUMBS: all of up to so many points.
@@ -158,8 +117,20 @@ TEST (ManifoldPart, CrumbsOfALatticeAreManifold)
   const std::size_t most = more != nullptr ? std::stoul (more) : 5;
   std::map<std::vector<std::vector<double>>, Positions> crumbs;
   const auto add = [&crumbs] (std::uint32_t bits) {
-    Positions crumb = crumbOf (bits);
-    crumbs.emplace (distancesOf (crumb), crumb);
+    Positions crumb; // the points of the lattice of 3 x 3 x 3 whose bits are set
+    for (Index i = 0; i < 27; ++i)
+      if ((bits >> i & 1U) != 0)
+        crumb.emplace_back (i % 3, i / 3 % 3, i / 9);
+    // The distances from each point to all, which are the same of crumbs that can be moved onto each other.
+    std::vector<std::vector<double>> distances;
+    for (const Eigen::Vector3d& p : crumb) {
+      std::vector<double>& squares = distances.emplace_back ();
+      for (const Eigen::Vector3d& q : crumb)
+        squares.push_back ((p - q).squaredNorm ());
+      std::sort (squares.begin (), squares.end ());
+    }
+    std::sort (distances.begin (), distances.end ());
+    crumbs.emplace (distances, crumb);
   };
   for (std::size_t size = 3; size <= most; ++size)
     for (std::uint32_t bits = (1U << size) - 1; bits < END;) {

@@ -20,24 +20,6 @@ namespace pcl::floater {
 namespace {
 using namespace samples;
 
-// Share of star neighbours on the other one of parallel sheets; of points 2.5 spacings inside their sheet, so that they
-// have neighbours on all sides.
-double
-shareOfStrays (const Neighborhoods& sheets, double gap)
-{
-  double strays = 0.0, all = 0.0;
-  for (Index p = 0; p < sheets.points.size (); ++p) {
-    const Eigen::Vector3d place = sheets.points.inCloud (p);
-    if ((place.head<2> ().array () - 18.2).abs ().maxCoeff () > 15.2)
-      continue;
-    for (const Index q : sheets.geometry.stars.neighbors.row (p)) {
-      all += 1.0;
-      strays += std::abs (place.z () - sheets.points.inCloud (q).z ()) > 0.5 * gap ? 1.0 : 0.0;
-    }
-  }
-  return strays / all;
-}
-
 void
 expectSane (const Neighborhoods& made)
 {
@@ -109,15 +91,28 @@ TEST (Stars, OpenAtTheBorderOnly)
 
 TEST (Stars, TheFilterKeepsSheetsApart)
 {
-  for (const double gap : {2.0, 1.7}) {
-    const Neighborhoods filtered = makeNeighborhoods (parallelSheets (gap, 10).points, true);
-    expectSane (filtered);
-    EXPECT_EQ (shareOfStrays (filtered, gap), 0.0);
-  }
+  // Share of star neighbours on the other one of parallel sheets; of points 2.5 spacings inside their sheet, so that
+  // they have neighbours on all sides.
+  const auto shareOfStrays = [] (double gap, bool with_filter) {
+    const auto [points, geometry] =
+        makeNeighborhoods (parallelSheets (gap, 10).points, with_filter);
+    expectSane ({points, geometry});
+    double strays = 0.0, all = 0.0;
+    for (Index p = 0; p < points.size (); ++p) {
+      const Eigen::Vector3d place = points.inCloud (p);
+      if ((place.head<2> ().array () - 18.2).abs ().maxCoeff () > 15.2)
+        continue;
+      for (const Index q : geometry.stars.neighbors.row (p)) {
+        all += 1.0;
+        strays += std::abs (place.z () - points.inCloud (q).z ()) > 0.5 * gap ? 1.0 : 0.0;
+      }
+    }
+    return strays / all;
+  };
+  for (const double gap : {2.0, 1.7})
+    EXPECT_EQ (shareOfStrays (gap, true), 0.0);
   // At 2 spacings it is enough that offsets keep their length; nearer sheets need the filter.
-  const Neighborhoods plain = makeNeighborhoods (parallelSheets (1.7, 10).points, false);
-  expectSane (plain);
-  EXPECT_GT (shareOfStrays (plain, 1.7), 0.002);
+  EXPECT_GT (shareOfStrays (1.7, false), 0.002);
 }
 
 // On lines ten times as far apart as their points.
@@ -207,15 +202,6 @@ make (Neighbors neighbors)
   return star;
 }
 
-Neighbors
-at (const std::vector<Eigen::Vector2d>& places)
-{
-  Neighbors neighbors;
-  for (const Eigen::Vector2d& place : places)
-    neighbors.push_back ({place, static_cast<Index> (neighbors.size ())});
-  return neighbors;
-}
-
 // The star by CGAL, anti-clockwise; an open star begins after its gap.
 Star
 byCgal (const Neighbors& neighbors)
@@ -246,15 +232,6 @@ byCgal (const Neighbors& neighbors)
   return star;
 }
 
-double
-openingAngleByBruteForce (const Neighbors& neighbors)
-{
-  std::vector<double> angles;
-  for (const PlanarNeighbor& neighbor : neighbors)
-    angles.push_back (std::atan2 (neighbor.offset.y (), neighbor.offset.x ()));
-  return widestGap (angles);
-}
-
 // A closed star may begin anywhere: then from its smallest point on.
 std::vector<Index>
 pointsOf (Star star)
@@ -275,14 +252,16 @@ TEST (PlanarStar, IsDelaunay)
     const double turn = 2.0 * PI * random.uniform ();
     const double width = (round % 2 == 0 ? 2.0 : 1.2 * random.uniform ()) * PI;
     Neighbors neighbors (3 + random.below (25));
+    std::vector<double> angles;
     for (Index i = 0; i < neighbors.size (); ++i) {
       const double angle = turn + width * random.uniform ();
       const double length = 0.1 + random.uniform ();
       neighbors[i] = {{length * std::cos (angle), length * std::sin (angle)}, i};
+      angles.push_back (std::atan2 (neighbors[i].offset.y (), neighbors[i].offset.x ()));
     }
     const Star star = make (neighbors), expected = byCgal (neighbors);
     EXPECT_EQ (star.open, expected.open);
-    EXPECT_NEAR (star.opening_angle, openingAngleByBruteForce (neighbors), 1e-7);
+    EXPECT_NEAR (star.opening_angle, widestGap (angles), 1e-7);
     EXPECT_EQ (pointsOf (star), pointsOf (expected));
     open += star.open ? 1 : 0;
   }
@@ -300,6 +279,12 @@ struct SmallStar
 
 TEST (PlanarStar, OfFewNeighborsOnLinesAndInHalfPlanes)
 {
+  const auto starOf = [] (const std::vector<Eigen::Vector2d>& places) {
+    Neighbors neighbors;
+    for (const Eigen::Vector2d& place : places)
+      neighbors.push_back ({place, static_cast<Index> (neighbors.size ())});
+    return make (neighbors);
+  };
   const double half = PI, whole = 2.0 * PI;
   std::vector<SmallStar> cases{
       // Of neighbours in one direction the nearest counts; in the second row it is one direction but
@@ -322,20 +307,20 @@ TEST (PlanarStar, OfFewNeighborsOnLinesAndInHalfPlanes)
     cases.push_back ({{{0, nearby}, {1, 0.1}, {0.2, 1}, {-1, 0.1}}, {1, 0, 3}, true});
   for (std::size_t i = 0; i < cases.size (); ++i) {
     SCOPED_TRACE (i);
-    const Star star = make (at (cases[i].neighbors));
+    const Star star = starOf (cases[i].neighbors);
     EXPECT_EQ (star.open, cases[i].is_open);
     EXPECT_EQ (pointsOf (star), cases[i].star);
     if (cases[i].opening_angle != 0.0) {
       EXPECT_NEAR (star.opening_angle, cases[i].opening_angle, 1e-7);
     }
   }
-  const Star both_sides = make (at ({{-1, -2}, {1, 2}, {2, 4}, {-3, -6}}));
+  const Star both_sides = starOf ({{-1, -2}, {1, 2}, {2, 4}, {-3, -6}});
   EXPECT_TRUE (both_sides.open);
   EXPECT_EQ (std::set<Index> (both_sides.points.begin (), both_sides.points.end ()),
              (std::set<Index>{0, 1}));
   EXPECT_NEAR (both_sides.opening_angle, half, 1e-7);
   for (const double nearby : {1e-6, 1e-10, 1e-14}) {
-    const Star star = make (at ({{nearby, 0}, {0.1, 1}, {-1, 0.3}, {-0.2, -1}, {1, -0.1}}));
+    const Star star = starOf ({{nearby, 0}, {0.1, 1}, {-1, 0.3}, {-0.2, -1}, {1, -0.1}});
     EXPECT_FALSE (star.open);
     EXPECT_EQ (pointsOf (star).front (), 0U) << nearby;
     EXPECT_GE (star.points.size (), 3U);

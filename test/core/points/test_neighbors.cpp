@@ -19,6 +19,7 @@ using namespace samples;
 
 constexpr int NEIGHBORS = 20;
 constexpr double RADIUS = 2.5;
+const NeighborSettings IN_BALLS{{Neighborhood::BALL, NEIGHBORS, RADIUS}};
 
 /// The k nearest of each point; or, with a radius in spacings, at least 6 and at most 200 of those in a
 /// ball.
@@ -50,31 +51,6 @@ expectSame (const CsrLists& found, const CsrLists& expected)
   EXPECT_EQ (found.ids, expected.ids);
 }
 
-/// Two tori, three small clusters far away, each of fewer points than a point has neighbours, and
-/// single points at all distances: halos of an even width are too narrow.
-Positions
-scattered ()
-{
-  Positions points = joined (surface (SurfaceKind::TORUS, 2500),
-                             placed (surface (SurfaceKind::TORUS, 800), {150.0, 0.0, 20.0}, 0.2));
-  for (int cluster = 0; cluster < 3; ++cluster)
-    points = joined (points, placed (randomPoints (9, 7U + static_cast<unsigned> (cluster)),
-                                     300.0 * Eigen::Vector3d::Unit (cluster)));
-  for (int i = 1; i <= 12; ++i)
-    points.emplace_back (100.0 * std::cos (i), 100.0 * std::sin (i), 3.0 * i * i);
-  return points;
-}
-
-/// Some of the points: many, one, or none.
-std::vector<std::vector<Index>>
-someOf (std::size_t points)
-{
-  std::vector<Index> many;
-  for (Index p = 5; p < points; p += 1 + p % 13)
-    many.push_back (p);
-  return {many, std::vector<Index> (std::min<std::size_t> (points, 1), 0), {}};
-}
-
 /// Denser at one side.
 Positions
 plane (std::size_t count)
@@ -85,23 +61,17 @@ plane (std::size_t count)
   return points;
 }
 
-BlockCutter
-inBlocks (const Positions& positions, std::size_t blocks)
-{
-  std::vector<BlockCutter::Box> buckets = BlockCutter::makeBuckets (positions);
-  const std::size_t most = buckets.size ();
-  return {positions.size (), std::move (buckets), std::min (blocks, most),
-          [&positions] (Index first, Index last, Positions& to) {
-            to.insert (to.end (), positions.data () + first, positions.data () + last);
-          }};
-}
-
 /// The nearest of all points, by a search in each block.
 /// \param[in,out] cut_again becomes true if a block was too small
 CsrLists
 nearestByBlocks (const Positions& positions, std::size_t blocks, bool& cut_again)
 {
-  const BlockCutter cutter = inBlocks (positions, blocks);
+  const std::vector<BlockCutter::Box> buckets = BlockCutter::makeBuckets (positions);
+  const BlockCutter cutter{positions.size (), buckets, std::min (blocks, buckets.size ()),
+                           [&positions] (Index first, Index last, Positions& to) {
+                             to.insert (to.end (), positions.data () + first,
+                                        positions.data () + last);
+                           }};
   CsrLists lists;
   lists.offsets.push_back (0);
   for (std::size_t i = 0; i < cutter.blocks; ++i) {
@@ -119,8 +89,18 @@ nearestByBlocks (const Positions& positions, std::size_t blocks, bool& cut_again
 
 TEST (NearestNeighbors, DoNotDependOnBlocks)
 {
+  // Two tori, three small clusters far away, each of fewer points than a point has neighbours, and
+  // single points at all distances: halos of an even width are too narrow.
+  Positions scattered =
+      joined (surface (SurfaceKind::TORUS, 2500),
+              placed (surface (SurfaceKind::TORUS, 800), {150.0, 0.0, 20.0}, 0.2));
+  for (int cluster = 0; cluster < 3; ++cluster)
+    scattered = joined (scattered, placed (randomPoints (9, 7U + static_cast<unsigned> (cluster)),
+                                           300.0 * Eigen::Vector3d::Unit (cluster)));
+  for (int i = 1; i <= 12; ++i)
+    scattered.push_back (polar (100.0, i, 3.0 * i * i));
   std::vector<Positions> clouds;
-  for (const Positions& cloud : {scattered (), surface (SurfaceKind::HEIGHT_FIELD, 3000, 0.0, 50.0),
+  for (const Positions& cloud : {scattered, surface (SurfaceKind::HEIGHT_FIELD, 3000, 0.0, 50.0),
                                  surface (SurfaceKind::FOLDED_SHEET, 2000),
                                  surface (SurfaceKind::SPHERE, 2000, 0.3), randomPoints (700, 3)})
     clouds.push_back (workingPoints (cloud).positions);
@@ -149,7 +129,11 @@ TEST (NearestNeighbors, DoNotDependOnBlocks)
     const CsrLists expected = listsByTryingAll (positions, all, NEIGHBORS);
     SCOPED_TRACE (cloud);
     expectSame (findNearestNeighbors (positions, all, NEIGHBORS, 2), expected);
-    for (const std::vector<Index>& some : someOf (positions.size ())) {
+    std::vector<Index> many;
+    for (Index p = 5; p < positions.size (); p += 1 + p % 13)
+      many.push_back (p);
+    const std::vector<Index> one (std::min<std::size_t> (positions.size (), 1), 0), none;
+    for (const std::vector<Index>& some : {many, one, none}) {
       const CsrLists of_some = listsByTryingAll (positions, Rows::of (some), NEIGHBORS);
       expectSame (findNearestNeighbors (positions, Rows::of (some), NEIGHBORS, 2), of_some);
     }
@@ -157,15 +141,6 @@ TEST (NearestNeighbors, DoNotDependOnBlocks)
       expectSame (nearestByBlocks (positions, blocks, cut_again), expected);
   }
   EXPECT_TRUE (cut_again);
-}
-
-NeighborSettings
-inBalls ()
-{
-  NeighborSettings settings;
-  settings.options.kind = Neighborhood::BALL;
-  settings.options.ball_radius = RADIUS;
-  return settings;
 }
 
 TEST (BallNeighbors, AreTheSixNearestAndUpToTwoHundredInABall)
@@ -180,7 +155,7 @@ TEST (BallNeighbors, AreTheSixNearestAndUpToTwoHundredInABall)
   for (const Positions& cloud : {plane (1500), plane (4), crowded}) {
     const Points points = workingPoints (cloud);
     const Rows all = Rows::all (points.size ());
-    const CsrLists balls = findNeighbors (points, inBalls (), 2);
+    const CsrLists balls = findNeighbors (points, IN_BALLS, 2);
     expectSame (balls, listsByTryingAll (points.positions, all, 0, RADIUS));
     for (Index p = 0; p < points.size (); ++p)
       lengths.insert (balls.row (p).size ());
@@ -257,7 +232,7 @@ TEST (CallerSearch, FindsTheSameAmongTheWorkingPoints)
     for (const bool knows_radii : {true, false}) {
       BruteForceSearch search (cloud);
       search.knows_radii = knows_radii;
-      NeighborSettings nearest, balls = inBalls ();
+      NeighborSettings nearest, balls = IN_BALLS;
       nearest.search = balls.search = &search;
       const Rows all = Rows::all (points.size ());
       expectSame (findNeighbors (points, nearest, 1),

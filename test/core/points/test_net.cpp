@@ -199,13 +199,11 @@ TEST (Noise, IsKeptInRegionsThatItExplains)
   noise.at_point.assign (20, 1.0F);
   noise.at_point[0] = 0.0F;
   noise.noisy_points = 19;
-  CsrLists chains;
-  chains.offsets = {0};
-  for (Index p = 0; p < 20; ++p) {
-    if (p % 10 != 9)
-      chains.ids.push_back (p + 1);
-    chains.offsets.push_back (static_cast<Index> (chains.ids.size ()));
-  }
+  const CsrLists chains = makeCsrLists (20, [] (auto&& emit) {
+    for (Index p = 0; p < 20; ++p)
+      if (p % 10 != 9)
+        emit (p, p + 1);
+  });
   const std::vector<float> before (20, 0.8F);
   std::vector<float> after (20, 0.95F);
   std::fill (after.begin () + 10, after.end (), 0.85F);

@@ -179,27 +179,6 @@ asFloats (Positions cloud)
   return cloud;
 }
 
-Positions
-rounded (Positions cloud, double step)
-{
-  for (Eigen::Vector3d& p : cloud)
-    p = step * (p / step).array ().round ().matrix ();
-  return cloud;
-}
-
-// A raster of heights, of which some nodes are left out.
-Positions
-raster (double step, std::size_t one_in, const Eigen::Vector3d& place = {0, 0, 0})
-{
-  Positions cloud;
-  RandomStream random (7);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x)
-      if (random.below (one_in) == 0)
-        cloud.emplace_back (place + Eigen::Vector3d (step * x, step * y, std::sin (0.1 * x * y)));
-  return cloud;
-}
-
 CoordinateGrid
 gridOf (const Positions& cloud)
 {
@@ -234,27 +213,43 @@ TEST (CoordinateGrid, CoordinatesWithFewDigits)
 {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     const Positions torus = placed (surface (SurfaceKind::TORUS, 3000), {0, 0, 0}, scale);
-    const CoordinateGrid grid = gridOf (rounded (torus, 0.2 * scale));
+    const auto gridOfRounded = [&torus] (double step) {
+      Positions cloud = torus;
+      for (Eigen::Vector3d& p : cloud)
+        p = step * (p / step).array ().round ().matrix ();
+      return gridOf (cloud);
+    };
+    const CoordinateGrid grid = gridOfRounded (0.2 * scale);
     EXPECT_NEAR (grid.step / scale, 0.2, 1e-6);
     EXPECT_GT (grid.spacings, 0.1);
     EXPECT_LT (grid.spacings, 0.4);
     EXPECT_FALSE (grid.is_single_precision);
     // So coarse that many points coincide.
-    EXPECT_NEAR (gridOf (rounded (torus, 1.5 * scale)).step / scale, 1.5, 1e-5);
-    EXPECT_EQ (gridOf (rounded (torus, 0.05 * scale)).step, 0.0);
+    EXPECT_NEAR (gridOfRounded (1.5 * scale).step / scale, 1.5, 1e-5);
+    EXPECT_EQ (gridOfRounded (0.05 * scale).step, 0.0);
     EXPECT_EQ (gridOf (torus).step, 0.0);
   }
 }
 
 TEST (CoordinateGrid, ARasterIsNoFlaw)
 {
+  // Heights, of which some nodes are left out.
+  const auto raster = [] (double step, std::size_t one_in) {
+    Positions cloud;
+    RandomStream random (7);
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 80; ++x)
+        if (random.below (one_in) == 0)
+          cloud.emplace_back (step * x, step * y, std::sin (0.1 * x * y));
+    return cloud;
+  };
   for (const std::size_t one_in : {1U, 2U, 10U})
     for (const double step : {1.0, 0.1, 30.0}) {
       EXPECT_EQ (gridOf (raster (step, one_in)).step, 0.0);
       EXPECT_EQ (gridOf (asFloats (raster (step, one_in))).step, 0.0);
     }
   for (const double step : {1.0, 0.5}) // half is the step of floats there
-    EXPECT_EQ (gridOf (asFloats (raster (step, 1, ON_A_MAP))).step, 0.0);
+    EXPECT_EQ (gridOf (asFloats (placed (raster (step, 1), ON_A_MAP))).step, 0.0);
   // Flat ones, and voxels of a solid's surface.
   EXPECT_EQ (gridOf (disc (0.05, 1).positions).step, 0.0);
   EXPECT_EQ (gridOf (latticeCube (11)).step, 0.0);
