@@ -30,46 +30,40 @@ struct Choice
         }     \
   }
 
-std::vector<Choice>
-choices ()
-{
-  static const Options d;
-  return {CHOICE (Topology, d.topology, Topology::DISC),
-          CHOICE (HolePolicy, d.holes.policy, HolePolicy::KEEP_LARGEST),
-          CHOICE (KeptLoops, d.holes.kept_loops, 3),
-          CHOICE (LargestHole, d.holes.largest_hole, 5.0),
-          {"LargestHoleUnit",
-           [] (Class& floater) { floater.setLargestHole (0.0, LengthUnit::CLOUD); },
-           [] (const Class& floater) {
-             return floater.getLargestHoleUnit () == d.holes.unit ? -1 : 1;
-           }},
-          CHOICE (MaximumEdgeLength, d.trimming.maximum_edge_length, 100.0),
-          CHOICE (MaximumEdgeRatio, d.trimming.maximum_edge_ratio, 100.0),
-          CHOICE (MinimumComponentSize, d.trimming.minimum_component_size, 10),
-          CHOICE (RemoveOutliers, d.remove_outliers, false),
-          CHOICE (ScatterPolicy, d.scatter, ScatterPolicy::DROP),
-          CHOICE (OpenSelfIntersections, d.trimming.open_self_intersections, true),
-          CHOICE (Denoise, d.denoise, false),
-          CHOICE (KSearch, d.neighbors.k, 12),
-          CHOICE (Neighborhood, d.neighbors.kind, Neighborhood::BALL),
-          CHOICE (BallRadius, d.neighbors.ball_radius, 3.0),
-          CHOICE (FilterSheets, d.filter_sheets, false),
-          CHOICE (FlipEdges, d.flip_edges, false),
-          CHOICE (Facing, d.facing, Facing::OUTWARDS),
-          CHOICE (RemoveSelfIntersections, d.remove_self_intersections, false),
-          CHOICE (ViewUse, d.view.use, ViewUse::NEVER),
-          CHOICE (NumberOfThreads, 0U, 1U),
-          CHOICE (ComputeTextureCoordinates, false, true),
-          CHOICE (LargestStretch, TextureOptions ().largest_stretch, 1.5),
-          CHOICE (ComputeNormals, false, true),
-          CHOICE (UseInputNormals, false, true),
-          {"disc", [] (Class& floater) { floater.setDiscOptions (DiscOptions::tw385 ()); },
-           [] (const Class& floater) { return floater.getDiscOptions ().as_published ? 1 : -1; }}};
-}
-
 TEST (FloaterClass, ASetterChangesItsOwnParameter)
 {
-  const std::vector<Choice> all = choices ();
+  static const Options d;
+  const std::vector<Choice> all{
+      CHOICE (Topology, d.topology, Topology::DISC),
+      CHOICE (HolePolicy, d.holes.policy, HolePolicy::KEEP_LARGEST),
+      CHOICE (KeptLoops, d.holes.kept_loops, 3),
+      CHOICE (LargestHole, d.holes.largest_hole, 5.0),
+      {"LargestHoleUnit", [] (Class& floater) { floater.setLargestHole (0.0, LengthUnit::CLOUD); },
+       [] (const Class& floater) {
+         return floater.getLargestHoleUnit () == d.holes.unit ? -1 : 1;
+       }},
+      CHOICE (MaximumEdgeLength, d.trimming.maximum_edge_length, 100.0),
+      CHOICE (MaximumEdgeRatio, d.trimming.maximum_edge_ratio, 100.0),
+      CHOICE (MinimumComponentSize, d.trimming.minimum_component_size, 10),
+      CHOICE (RemoveOutliers, d.remove_outliers, false),
+      CHOICE (ScatterPolicy, d.scatter, ScatterPolicy::DROP),
+      CHOICE (OpenSelfIntersections, d.trimming.open_self_intersections, true),
+      CHOICE (Denoise, d.denoise, false),
+      CHOICE (KSearch, d.neighbors.k, 12),
+      CHOICE (Neighborhood, d.neighbors.kind, Neighborhood::BALL),
+      CHOICE (BallRadius, d.neighbors.ball_radius, 3.0),
+      CHOICE (FilterSheets, d.filter_sheets, false),
+      CHOICE (FlipEdges, d.flip_edges, false),
+      CHOICE (Facing, d.facing, Facing::OUTWARDS),
+      CHOICE (RemoveSelfIntersections, d.remove_self_intersections, false),
+      CHOICE (ViewUse, d.view.use, ViewUse::NEVER),
+      CHOICE (NumberOfThreads, 0U, 1U),
+      CHOICE (ComputeTextureCoordinates, false, true),
+      CHOICE (LargestStretch, TextureOptions ().largest_stretch, 1.5),
+      CHOICE (ComputeNormals, false, true),
+      CHOICE (UseInputNormals, false, true),
+      {"disc", [] (Class& floater) { floater.setDiscOptions (DiscOptions::tw385 ()); },
+       [] (const Class& floater) { return floater.getDiscOptions ().as_published ? 1 : -1; }}};
   for (const Choice& chosen : all) {
     Class floater;
     chosen.set (floater);

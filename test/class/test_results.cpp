@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace pcl::floater {
 namespace {
@@ -99,9 +100,8 @@ TEST (FloaterClass, TellsWhatEachPointIsInTheMesh)
   cloud->push_back (pcl::PointXYZ (std::nanf (""), 0.0F, 0.0F));
   cloud->push_back ((*cloud)[3]);
   cloud->push_back (pcl::PointXYZ (1.0F, 1.0F, 1.0F));
-  const pcl::IndicesPtr indices (new pcl::Indices);
-  for (std::size_t i = 0; i < UNSELECTED; ++i)
-    indices->push_back (static_cast<pcl::index_t> (i));
+  const pcl::IndicesPtr indices (new pcl::Indices (UNSELECTED));
+  std::iota (indices->begin (), indices->end (), 0);
 
   Class floater;
   EXPECT_TRUE (floater.getPartIDs ().empty () && floater.getPointStates ().empty ());
@@ -219,9 +219,8 @@ TEST (FloaterClass, NormalsOfTheMeshAreFieldsOfItsCloud)
 {
   const Cloud::Ptr cloud = heightField ();
   cloud->points[7].x = std::nanf (""); // in no triangle, as the first point, which is not selected
-  const pcl::IndicesPtr indices (new pcl::Indices);
-  for (pcl::index_t p = 1; p < 500; ++p)
-    indices->push_back (p);
+  const pcl::IndicesPtr indices (new pcl::Indices (499));
+  std::iota (indices->begin (), indices->end (), 1);
   Class floater;
   floater.setInputCloud (cloud);
   floater.setIndices (indices);
@@ -286,9 +285,8 @@ TEST (FloaterClass, TextureCoordinatesAreThoseOfTheMesh)
     cloud->insert (cloud->begin (), 5, pcl::PointXYZ (1.0F, 2.0F, std::nanf ("")));
     return cloud;
   };
-  const pcl::IndicesPtr indices (new pcl::Indices);
-  for (pcl::index_t i = 3; i < 1505; ++i)
-    indices->push_back (i);
+  const pcl::IndicesPtr indices (new pcl::Indices (1502));
+  std::iota (indices->begin (), indices->end (), 3);
   Class floater;
   floater.setInputCloud (make (SurfaceKind::SPHERE));
   floater.setIndices (indices);

@@ -246,21 +246,20 @@ spoil (Points& points, ByteSource& bytes, RandomStream& random)
     return p[static_cast<Eigen::Index> (random.below (3))];
   };
   const std::size_t spikes = 1 + random.below (1 + points.size () / 4);
-  switch (const std::size_t kind = bytes.below (16); kind) {
+  switch (bytes.below (16)) {
   case 8:
-  case 9:
-  case 10:
     for (std::size_t i = 0; i < spikes; ++i)
-      if (kind == 8) {
-        anyOf (any ()) = std::numeric_limits<double>::quiet_NaN ();
-      }
-      else if (kind == 9) {
-        anyOf (any ()) = (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::infinity ();
-      }
-      else {
-        const Vector3d copy = any ();
-        any () = copy;
-      }
+      anyOf (any ()) = std::numeric_limits<double>::quiet_NaN ();
+    break;
+  case 9:
+    for (std::size_t i = 0; i < spikes; ++i)
+      anyOf (any ()) = (i % 2 == 0 ? 1.0 : -1.0) * std::numeric_limits<double>::infinity ();
+    break;
+  case 10:
+    for (std::size_t i = 0; i < spikes; ++i) {
+      const Vector3d copy = any ();
+      any () = copy;
+    }
     break;
   case 11: // outliers, near and far
     for (std::size_t i = 0; i < 3; ++i)

@@ -15,19 +15,6 @@
 namespace pcl::floater::fuzz {
 namespace {
 std::string
-findFaultOfFailure (const Result& result)
-{
-  if (result.report.status == RunStatus::INTERNAL_ERROR ||
-      result.report.status == RunStatus::NOT_RUN)
-    return std::string (statusName (result.report.status)) + ": " + result.report.message;
-  if (!result.triangles.empty ())
-    return "a run that failed has triangles";
-  if (result.report.message.empty ())
-    return "a run that failed has no message";
-  return "";
-}
-
-std::string
 named (std::uint32_t point)
 {
   return "point " + std::to_string (point);
@@ -140,12 +127,17 @@ findFaultOfFigures (const Input& input, const Result& result, const samples::Mes
 std::string
 findFault (const Input& input, const Result& result)
 {
-  if (result.report.status != RunStatus::SUCCESS)
-    return findFaultOfFailure (result);
-  if (result.triangles.empty ())
-    return "a run that succeeded has no triangles";
-  if (!result.report.message.empty ())
-    return "a run that succeeded has a message: " + result.report.message;
+  const RunStatus status = result.report.status;
+  const std::string& message = result.report.message;
+  if (status == RunStatus::INTERNAL_ERROR || status == RunStatus::NOT_RUN)
+    return std::string (statusName (status)) + ": " + message;
+  const bool is_success = status == RunStatus::SUCCESS;
+  if (result.triangles.empty () == is_success)
+    return "a run that succeeded has no triangles, or one that failed has some";
+  if (message.empty () != is_success)
+    return "a run that succeeded has a message, or one that failed has none: " + message;
+  if (!is_success)
+    return "";
   std::set<std::uint32_t> used;
   for (const auto& triangle : result.triangles)
     used.insert (triangle.begin (), triangle.end ());

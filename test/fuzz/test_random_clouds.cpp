@@ -11,18 +11,6 @@
 
 namespace pcl::floater {
 namespace {
-// The cloud and options of random bytes.
-fuzz::Attack
-randomAttack (std::uint64_t seed, std::size_t most)
-{
-  std::mt19937_64 engine (seed);
-  std::array<std::uint8_t, 4096> bytes{}; // more than a recipe takes, but for raw points
-  for (std::uint8_t& byte : bytes)
-    byte = static_cast<std::uint8_t> (engine ());
-  fuzz::ByteSource source (bytes.data (), bytes.size ());
-  return fuzz::decodeAttack (source, most);
-}
-
 using RandomClouds = testing::TestWithParam<std::size_t>;
 
 TEST_P (RandomClouds, GiveNoWrongResult)
@@ -34,7 +22,12 @@ TEST_P (RandomClouds, GiveNoWrongResult)
       static_cast<double> (fuzz::wantedBy ("PCL_FLOATER_LONGEST", 1000)); // seconds
   std::size_t meshes = 0;
   for (std::uint64_t seed = first; seed < first + clouds; ++seed) {
-    const fuzz::Attack attack = randomAttack (seed, GetParam ());
+    std::mt19937_64 engine (seed);
+    std::array<std::uint8_t, 4096> bytes{}; // more than a recipe takes, but for raw points
+    for (std::uint8_t& byte : bytes)
+      byte = static_cast<std::uint8_t> (engine ());
+    fuzz::ByteSource source (bytes.data (), bytes.size ());
+    const fuzz::Attack attack = fuzz::decodeAttack (source, GetParam ());
     const std::clock_t begin = std::clock ();
     const Result result = reconstruct (attack.input, attack.options);
     EXPECT_LT (static_cast<double> (std::clock () - begin) / CLOCKS_PER_SEC, longest) << seed;
