@@ -28,7 +28,8 @@ struct RemadeZones
   std::vector<std::uint8_t> is_remade; ///< of each point: its triangles were made anew; or empty
   std::vector<std::size_t> failed;     ///< of each point: size of the last zone with it that was
                                        ///< tried in vain; 0: none; or empty
-  std::vector<std::uint8_t> is_noisy;  ///< of each point: the last zone with it was noise; or empty
+  std::vector<std::uint8_t> is_noisy;  ///< of each point: the last zone with it was noise, and a
+                                       ///< large one; or empty
   bool is_noise = false;               ///< the cloud is noise, so that no zone can be made anew
 
   std::size_t points () const
