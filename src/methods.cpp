@@ -310,7 +310,7 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   const SearchLimits& search = request.limits.view.search;
   const EvidenceLimits& evidence = request.limits.view.evidence;
   const auto isSeen = [&] (const Viewpoint& viewpoint) {
-    return sightFrom (points, viewpoint, false, evidence, run) == Sight::CERTAIN;
+    return sightFrom (points, viewpoint, false, evidence, run) != Sight::NO;
   };
   if (isSeen (given))
     return {};

@@ -17,7 +17,7 @@ struct Viewpoint
   /// Position of the sensor. If it is far away: unit vector along the parallel rays.
   Eigen::Vector3d place = Eigen::Vector3d::Zero ();
   bool is_far = false;
-  bool is_only_told = false; ///< by the file; the points do not tell
+  bool is_only_told = false; ///< by the file or outlines; the rays do not tell
 };
 
 /// The direction of rays from far beyond a place.

@@ -7,6 +7,7 @@
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"
 #include "mesh/trimming.h"
+#include "view/outlines.h"
 
 #include <algorithm>
 #include <array>
@@ -119,13 +120,15 @@ sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
     return Sight::CERTAIN;
   constexpr double AT_SENSOR = 2.0; // times as many: densities are without points at the sensor
   const bool may_be = are_enough && rays.nearShare () <= AT_SENSOR * limits.crossing_share;
-  if (!may_be && !is_told)
+  const bool is_likely =
+      is_told || (are_enough && areOutlinesClear (positions, patches, viewpoint, {}, run));
+  if (!may_be && !is_likely)
     return Sight::NO;
   const DensityEvidence densities =
       findDensityEvidence (positions, patches, viewpoint, limits, run);
   if (may_be && explainsDensity (positions, densities, viewpoint, limits, run))
     return Sight::CERTAIN;
-  return is_told && densities.hidden_share <= limits.hidden_if_told ? Sight::POSSIBLE : Sight::NO;
+  return is_likely && densities.hidden_share <= limits.hidden_if_told ? Sight::POSSIBLE : Sight::NO;
 }
 
 ViewSurface

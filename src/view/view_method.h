@@ -38,7 +38,7 @@ struct ViewLimits
             ///< Measured: at most 0.15 in generated scans, 0.21 in a
             ///< real one of 32 rings; 0.37 in profiles far apart
   double largest_unused_if_told =
-      0.01; ///< the same if only the file tells the viewpoint. Scans from
+      0.01; ///< the same if only the file or outlines tell the viewpoint. Scans from
             ///< several places, of which it tells one, have 0.013 to 0.035
 };
 
@@ -53,12 +53,12 @@ struct ViewSettings
 enum class Sight
 {
   NO,
-  POSSIBLE, ///< hardly any point hides others
+  POSSIBLE, ///< it is told, or outlines are clear, and hardly any point hides others
   CERTAIN   ///< see RayEvidence and explainsDensity
 };
 
 /// O(n log n), 0.1 microseconds per point if it was.
-/// \param is_told the place is that of a sensor; else the result is never POSSIBLE
+/// \param is_told the place is that of a sensor
 Sight
 sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
            const EvidenceLimits& limits, const RunContext& run);

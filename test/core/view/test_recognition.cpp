@@ -53,37 +53,6 @@ TEST (Recognition, ARosetteIsRecognised)
   EXPECT_GT (result.report.statistics.used_points, 0.9 * scan.points.size ());
 }
 
-// The mean of the noisy points in each cell of a grid: no rays are left that tell of the sensor, but
-// the file does.
-TEST (Recognition, ASensorInTheFileDecidesWhereThePointsDoNotTell)
-{
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Scan scan = scanScene (Raster::CAMERA, {0.01, 0.0}, seed);
-    std::map<std::array<long, 3>, std::pair<Eigen::Vector3d, double>> cells;
-    for (const Eigen::Vector3d& point : scan.points) {
-      const auto cell = [&point] (int axis) { return std::lround (point[axis] / 0.12); };
-      auto& [sum, count] =
-          cells.try_emplace ({cell (0), cell (1), cell (2)}, Eigen::Vector3d::Zero (), 0.0)
-              .first->second;
-      sum += point;
-      count += 1.0;
-    }
-    Positions positions;
-    for (const auto& entry : cells)
-      positions.emplace_back (entry.second.first / entry.second.second);
-    Input input = asInput (positions);
-    Eigen::Map<Eigen::Vector3d> (input.sensor_origin.data ()) = scan.viewpoint;
-    const Result result = reconstruct (std::move (input), {});
-    ASSERT_EQ (result.report.status, RunStatus::SUCCESS);
-    Eigen::Vector2d area = Eigen::Vector2d::Zero (); // away from the sensor, towards it
-    for (const auto& [a, b, c] : result.triangles) {
-      const Eigen::Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
-      area[normal.dot (scan.viewpoint - positions[a]) > 0.0 ? 1 : 0] += normal.norm ();
-    }
-    EXPECT_GT (area[1], 0.95 * area.sum ()) << seed;
-  }
-}
-
 // Rings of a car's lidar: each begins anywhere, they are unevenly far apart, and rays are lost.
 // \param drive way of the car during the turn, in whose middle it is at the place
 Scan

@@ -116,7 +116,7 @@ enum class Ordering
 enum class ViewUse
 {
   AUTO,  ///< if its rays are evenly spaced from some viewpoint: the origin of the sensor is tried
-         ///< first; if noise is strong, the viewpoint is searched
+         ///< first, and by outlines as well; if noise is strong, the viewpoint is searched
   GIVEN, ///< yes, from ViewOptions::viewpoint; every point must be visible from there
   NEVER  ///< no; the mesh does not face the origin of the sensor either
 };

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The pcl_floater authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/outlines.h"
+
+#include "core/geometry.h"
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl::floater {
+namespace {
+using Place = Eigen::Vector2d;
+
+// Whether a line parts the first places from the others. It may go through two of them.
+bool
+isLineBetween (const std::vector<Place>& places, std::size_t first)
+{
+  for (std::size_t i = 0; i < places.size (); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const Place along = places[i] - places[k];
+      bool is_left = true, is_right = true; // the first ones
+      for (std::size_t j = 0; j < places.size (); ++j) {
+        const Place offset = places[j] - places[k];
+        const double left = along.x () * offset.y () - along.y () * offset.x ();
+        const double side = j < first ? left : -left;
+        is_left = is_left && (j == i || j == k || side > 0.0);
+        is_right = is_right && (j == i || j == k || side < 0.0);
+      }
+      if (is_left || is_right)
+        return true;
+    }
+  return false;
+}
+
+// Whether places lie along a line, like points in a row: seen at a grazing angle, rows look like
+// surfaces, one behind the other.
+bool
+areInRow (const Place* first, const Place* last, double width)
+{
+  const auto count = static_cast<double> (last - first);
+  Place middle = Place::Zero ();
+  for (const Place* p = first; p != last; ++p)
+    middle += *p / count;
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero ();
+  for (const Place* p = first; p != last; ++p)
+    spread += (*p - middle) * (*p - middle).transpose ();
+  // Product over squared sum of the squared widths along and across.
+  const double most = width / (1.0 + width * width);
+  return spread.determinant () <= most * most * spread.trace () * spread.trace ();
+}
+
+// Rays of a patch at outlines.
+struct Outlines
+{
+  std::size_t clear = 0, mixed = 0;
+};
+
+Outlines
+outlinesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
+            const Viewpoint& viewpoint, const OutlineLimits& limits)
+{
+  Outlines found;
+  if (patch.size () < limits.rays)
+    return found;
+  struct PlacedRay
+  {
+    Place place;
+    double depth, square;
+  };
+  std::vector<PlacedRay> rays;
+  const Ray first = rayTo (positions[patch.front ()], viewpoint);
+  const TangentFrame frame (first.direction);
+  for (const Index p : patch) {
+    const Ray ray = rayTo (positions[p], viewpoint);
+    rays.push_back ({frame.project (ray.direction), ray.depth, 0.0});
+  }
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < patch.size () / 2; ++i) {
+    std::vector<PlacedRay> near = rays;
+    for (PlacedRay& ray : near)
+      ray.square = (ray.place - rays[i].place).squaredNorm ();
+    const auto at = [&near] (std::size_t rank) {
+      return near.begin () + static_cast<std::ptrdiff_t> (rank);
+    };
+    const auto isNearer = [] (const auto& a, const auto& b) { return a.square < b.square; };
+    std::nth_element (near.begin (), at (limits.rays - 1), near.end (), isNearer);
+    near.resize (limits.rays);
+    std::nth_element (near.begin (), at (limits.rays / 2), near.end (), isNearer);
+    const double width = std::sqrt (at (limits.rays / 2)->square);
+    std::sort (near.begin (), near.end (),
+               [] (const auto& a, const auto& b) { return a.depth < b.depth; });
+    std::size_t behind = limits.least;
+    for (std::size_t k = behind; k + limits.least <= near.size (); ++k)
+      if (near[k].depth - near[k - 1].depth > near[behind].depth - near[behind - 1].depth)
+        behind = k;
+    const double front = near[behind - 1].depth, step = near[behind].depth - front;
+    if (step < limits.slope * width * front ||
+        step < limits.apart *
+                   std::max (front - near.front ().depth, near.back ().depth - near[behind].depth))
+      continue;
+    places.clear ();
+    for (const PlacedRay& ray : near)
+      places.push_back (ray.place);
+    const Place* const begin = places.data ();
+    const Place *const middle = begin + behind, *const end = begin + places.size ();
+    if (!areInRow (begin, middle, limits.row) && !areInRow (middle, end, limits.row))
+      ++(isLineBetween (places, behind) ? found.clear : found.mixed);
+  }
+  return found;
+}
+
+} // namespace
+
+bool
+areOutlinesClear (const std::vector<Eigen::Vector3d>& positions,
+                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
+                  const OutlineLimits& limits, const RunContext& run)
+{
+  std::vector<Outlines> of_patch (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    of_patch[k] = outlinesOf (positions, patches[k], viewpoint, limits);
+  });
+  double votes = 0.0, sum = 0.0;
+  for (const Outlines& outlines : of_patch)
+    if (outlines.clear + outlines.mixed >= limits.least) {
+      votes += 1.0;
+      sum += outlines.clear > outlines.mixed ? 1.0 : -1.0;
+    }
+  return votes > 0.0 && sum >= 2.0 * std::sqrt (votes);
+}
+
+} // namespace pcl::floater
