@@ -58,7 +58,7 @@ struct Outlines
 
 Outlines
 outlinesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
-            const Viewpoint& viewpoint, const OutlineLimits& limits)
+            const Viewpoint& viewpoint, std::size_t every, const OutlineLimits& limits)
 {
   Outlines found;
   if (patch.size () < limits.rays)
@@ -76,8 +76,9 @@ outlinesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch
     rays.push_back ({frame.project (ray.direction), ray.depth, 0.0});
   }
   std::vector<Place> places;
-  for (std::size_t i = 0; i < patch.size () / 2; ++i) {
-    std::vector<PlacedRay> near = rays;
+  std::vector<PlacedRay> near;
+  for (std::size_t i = 0; i < patch.size () / 2; i += every) {
+    near = rays;
     for (PlacedRay& ray : near)
       ray.square = (ray.place - rays[i].place).squaredNorm ();
     const auto at = [&near] (std::size_t rank) {
@@ -110,6 +111,32 @@ outlinesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch
   return found;
 }
 
+// Patches with outlines, and those for the viewpoint minus those against it.
+struct Votes
+{
+  double count = 0.0, sum = 0.0;
+
+  bool areClear () const { return count > 0.0 && sum >= 2.0 * std::sqrt (count); }
+};
+
+Votes
+takeVotes (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
+           const Viewpoint& viewpoint, std::size_t every, const OutlineLimits& limits,
+           const RunContext& run)
+{
+  std::vector<Outlines> of_patch (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    of_patch[k] = outlinesOf (positions, patches[k], viewpoint, every, limits);
+  });
+  Votes votes;
+  for (const Outlines& outlines : of_patch)
+    if (every * (outlines.clear + outlines.mixed) >= limits.least) {
+      votes.count += 1.0;
+      votes.sum += outlines.clear > outlines.mixed ? 1.0 : -1.0;
+    }
+  return votes;
+}
+
 } // namespace
 
 bool
@@ -117,17 +144,14 @@ areOutlinesClear (const std::vector<Eigen::Vector3d>& positions,
                   const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                   const OutlineLimits& limits, const RunContext& run)
 {
-  std::vector<Outlines> of_patch (patches.size ());
-  parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    of_patch[k] = outlinesOf (positions, patches[k], viewpoint, limits);
-  });
-  double votes = 0.0, sum = 0.0;
-  for (const Outlines& outlines : of_patch)
-    if (outlines.clear + outlines.mixed >= limits.least) {
-      votes += 1.0;
-      sum += outlines.clear > outlines.mixed ? 1.0 : -1.0;
-    }
-  return votes > 0.0 && sum >= 2.0 * std::sqrt (votes);
+  Votes votes = takeVotes (positions, patches, viewpoint, limits.every, limits, run);
+  if (votes.sum > 0.0 && !votes.areClear ()) {
+    EvidenceLimits more;
+    more.patches = limits.more * patches.size ();
+    votes = takeVotes (positions, findRayPatches (positions, viewpoint, more, run), viewpoint, 1,
+                       limits, run);
+  }
+  return votes.areClear ();
 }
 
 } // namespace pcl::floater

@@ -12,10 +12,12 @@ namespace pcl::floater {
 struct OutlineLimits
 {
   std::size_t rays = 12; ///< nearest ones, at which an outline is looked for
-  std::size_t least = 3; ///< rays to either surface; rays of a patch at an outline, if it counts
+  std::size_t least = 3; ///< rays to either surface
+  std::size_t every = 3; ///< of so many rays of the first patches one is looked at
   double slope = 4.0;    ///< smallest step of the depth over the width of half of the rays; as
                          ///< EvidenceLimits::hidden_slope
   double apart = 2.0;    ///< smallest step, in depths of either surface
+  std::size_t more = 4;  ///< times as many patches are taken if the first ones have few outlines
   double row = 0.2;      ///< rays to a surface are in a row if they are narrower than this share of
                          ///< their length
 };
@@ -24,7 +26,8 @@ struct OutlineLimits
 /// after a voxel filter. At an outline, near rays end on two surfaces. Seen from the sensor, a line
 /// parts the rays to one from those to the other; from elsewhere, the surfaces overlap, and their rays
 /// are mixed. Each patch with outlines is for the viewpoint or against it; those for it must be more
-/// by two standard deviations of chance, so four at least. O(patches * points of a patch squared).
+/// by two standard deviations of chance, so four at least. If they are more, but not by enough, more
+/// patches are taken, and all of their rays. O(patches * points of a patch squared).
 bool
 areOutlinesClear (const std::vector<Eigen::Vector3d>& positions,
                   const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
