@@ -12,7 +12,7 @@ namespace pcl::floater {
 struct OutlineLimits
 {
   std::size_t rays = 12; ///< nearest ones, at which an outline is looked for
-  std::size_t least = 3; ///< rays to either surface
+  std::size_t least = 3; ///< rays to either surface; and of a patch at outlines, if it counts
   std::size_t every = 3; ///< of so many rays of the first patches one is looked at
   double slope = 4.0;    ///< smallest step of the depth over the width of half of the rays; as
                          ///< EvidenceLimits::hidden_slope

@@ -7,15 +7,14 @@
 // being skipped.
 #include <pcl/surface/floater/reconstruct.h>
 
-#include "cloud_reader.h"
 #include "local/planes.h"
 #include "mesh/folds.h"
+#include "real_clouds.h"
 #include "surface_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <string>
 
@@ -353,14 +352,10 @@ using AnyRealCloud = testing::TestWithParam<Known>;
 TEST_P (AnyRealCloud, IsWhatItIs)
 {
   const Known& known = GetParam ();
-  const char* const folder = std::getenv ("PCL_FLOATER_DATA");
-  const std::string file =
-      (folder != nullptr && *folder != '\0' ? folder : PCL_FLOATER_DEFAULT_DATA) +
-      std::string ("/") + known.name + ".pcd";
-  if (!std::ifstream (file))
-    GTEST_SKIP () << "PCL_FLOATER_DATA names no folder with this cloud";
   KnownSurface surface;
-  surface.points = readCloud (file).positions ();
+  surface.points = realCloud (known.name);
+  if (surface.points.empty ())
+    GTEST_SKIP () << NO_REAL_CLOUD;
   surface.components = known.components;
   surface.loops = known.loops;
   surface.handles = known.handles;

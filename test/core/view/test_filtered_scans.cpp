@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scans after a voxel filter: no rays are left that tell of the sensor.
+#include "real_clouds.h"
 #include "scan_samples.h"
 #include "view/outlines.h"
 
@@ -77,6 +78,21 @@ TEST (FilteredScans, OutlinesTellOfASensorInTheOrigin)
       EXPECT_TRUE (report.is_view);
       EXPECT_TRUE (Eigen::Vector3d (report.viewpoint.data ()).isZero ());
     }
+}
+
+// Frames of depth cameras in the frame of the camera, one point for some 16 of them.
+TEST (FilteredScans, OutlinesTellOfRealSensors)
+{
+  for (const auto& [name, side] : {std::pair{"sensor_table_rgb", 0.013},
+                                   {"sensor_office", 0.037},
+                                   {"sensor_desktop", 0.0063}}) {
+    const Positions frame = realCloud (name);
+    if (frame.empty ())
+      GTEST_SKIP () << NO_REAL_CLOUD;
+    const Report report = meshOf (filtered (frame, side)).report;
+    EXPECT_TRUE (report.is_view) << name;
+    EXPECT_TRUE (Eigen::Vector3d (report.viewpoint.data ()).isZero ()) << name;
+  }
 }
 
 // Rows on the ground look like one surface behind the other, but are lines.
