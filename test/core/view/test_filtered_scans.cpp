@@ -85,7 +85,10 @@ TEST (FilteredScans, OutlinesTellOfRealSensors)
 {
   for (const auto& [name, side] : {std::pair{"sensor_table_rgb", 0.013},
                                    {"sensor_office", 0.037},
-                                   {"sensor_desktop", 0.0063}}) {
+                                   {"sensor_desktop", 0.0063},
+                                   {"raw_milk", 0.0029},
+                                   {"raw_kinect_table", 0.0025},
+                                   {"raw_kinect_table", 0.005}}) {
     const Positions frame = realCloud (name);
     if (frame.empty ())
       GTEST_SKIP () << NO_REAL_CLOUD;
