@@ -95,7 +95,8 @@ repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeomet
       (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
     return;
   extendNeighbors (geometry.neighbors, points.stacked.of);
-  repairAtEnd (mesh, all.positions, geometry, request.limits.surface.finish, finish, request.run);
+  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.surface.finish,
+              finish, request.run);
   geometry.neighbors = {};
 }
 

@@ -1,14 +1,109 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles that stars agree on, as one oriented surface.
+// Candidate triangles from the stars, the consistent orientation of normals, and the triangles that
+// stars agree on, as one oriented surface.
 #pragma once
 
-#include "consensus/candidates.h"
+#include "core/disjoint_sets.h"
+#include "local/stars.h"
 #include "mesh/triangle_mesh.h"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace pcl::floater {
+/// A triangle in the stars of one, two or all three of its corners.
+struct Candidate
+{
+  Triangle corners;         ///< the first is the smallest one whose star has the triangle;
+                            ///< anti-clockwise seen from the normal of that corner
+  std::uint8_t votes;       ///< corners whose stars have it, 1 to 3
+  std::uint8_t clockwise;   ///< bit i: clockwise seen from the normal of corner i
+  bool is_taken;            ///< into the consensus
+  float circumradius_ratio; ///< circumradius over the mean spacing of its corners
+  float normal_agreement;   ///< least |cosine| between its normal and those of its corners
+};
+
+/// Number of classes of normal agreement, evenly spaced in the cosine from 1 to 0.
+constexpr std::size_t AGREEMENT_RANKS = 32;
+
+/// Class of a candidate's normal agreement: 0 for the best, below AGREEMENT_RANKS.
+inline std::size_t
+normalAgreementRank (const Candidate& candidate)
+{
+  const auto steps = static_cast<std::size_t> ((1.0F - candidate.normal_agreement) *
+                                               static_cast<float> (AGREEMENT_RANKS));
+  return steps < AGREEMENT_RANKS ? steps : AGREEMENT_RANKS - 1;
+}
+
+/// Thresholds of candidates, stricter for fewer votes. Chosen by hand; no measurement is recorded.
+struct CandidateLimits
+{
+  std::array<float, 3> circumradius_ratio{2.0F, 2.0F, 3.0F}; ///< maximum for 1, 2 and 3 votes;
+                                                             ///< circumradii over spacings
+  std::array<float, 3> normal_agreement{0.4F, 0.2F, 0.1F};   ///< minimum for 1, 2 and 3 votes;
+                                                             ///< cosines
+  std::size_t sure_ranks = 4; ///< classes of normal agreement in which a candidate of three votes
+                              ///< is sure, as most triangles are: it enters the consensus unless it
+                              ///< contradicts the orientation. At most AGREEMENT_RANKS; 4: cosines
+                              ///< above 0.875
+};
+
+/// The triangles of all stars that are within the limits, each once, ordered by their first corner
+/// and around it. O(entries of the stars).
+/// \param normals for the normal agreement: those of the stars, or others on the same side
+/// \param spacing of each point (see localSpacing)
+std::vector<Candidate>
+findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
+                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
+                const CandidateLimits& limits, const RunContext& run);
+
+/// Sets of points whose normals are oriented relative to each other. A triangle joins the sets of
+/// its corners, by its orientation relative to each normal. Amortized almost O(1) for each call
+/// unless stated.
+class Orientation
+{
+public:
+  /// \param points number of points; each is a set of its own
+  explicit Orientation (std::size_t points) : sides_ (points) {}
+
+  /// Joins the sets of the corners of a triangle unless it contradicts their orientation.
+  /// \param clockwise as in Candidate
+  /// \return false if it does
+  bool join (const Triangle& corners, std::uint8_t clockwise);
+
+  /// Joins sets that are connected by candidates and have no common orientation yet. All candidates
+  /// between two sets vote together, since a single triangle across a sharp edge or between sheets
+  /// may be wrong. Rounds as in Boruvka's algorithm: every set is joined to the one with the most
+  /// votes, until no candidate connects two sets. O(m log m) for m candidates in each of O(log m)
+  /// rounds.
+  void vote (const Candidate* const* first, const Candidate* const* last, const RunContext& run);
+
+  /// The corners, anti-clockwise seen from the front of their set.
+  Triangle turned (Triangle corners, std::uint8_t clockwise);
+
+  /// Orients the normals of each set consistently.
+  void turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+
+private:
+  // The place of a corner; `flipped`: the triangle is clockwise seen from the front of its set.
+  SignedSets::Place placeOf (const Triangle& corners, std::uint8_t clockwise, std::size_t corner);
+
+  SignedSets sides_;
+};
+
+/// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
+/// are connected by edges. An orientation that spreads round such a surface contradicts itself
+/// along a whole row across it; a wrong triangle between two sheets stands alone, and where thin
+/// sheets are glued, there are many short rows. Fails for strips less than about 4 spacings wide:
+/// their rows are too short. O(m log m) for m triangles.
+/// \param contradicting see Consensus::seam
+/// \param shortest_seam triangles; see ConsensusLimits
+/// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
+std::vector<Triangle>
+findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam);
+
 /// Consistently oriented triangles. Their sectors around each point do not overlap in its tangent
 /// plane, so every edge has one or two. A point may still have several fans (see manifoldPart).
 struct Consensus

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus_method.h"
 
-#include "consensus/consensus.h"
-#include "consensus/orientation.h"
 #include "core/order_statistics.h"
 
 #include <algorithm>

@@ -3,11 +3,10 @@
 // The consensus method: surfaces of any topology, from the triangles that stars agree on.
 #pragma once
 
-#include "consensus/candidates.h"
+#include "consensus/consensus.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
 #include "mesh/hole_filling.h"
-#include "mesh/hole_widening.h"
 #include "mesh/loops.h"
 #include "points/points.h"
 

@@ -86,7 +86,8 @@ private:
     DisjointSets fans (ring_.size ());
     for (Index a = 0; a < ring_.size (); ++a)
       for (Index b = 0; b < a; ++b)
-        if (shareEdge (p, ring_[a], ring_[b]))
+        if (after (ring_[a], p, 1) == after (ring_[b], p, 2) ||
+            after (ring_[a], p, 2) == after (ring_[b], p, 1))
           fans.join (a, b);
     std::vector<Index> weight (ring_.size (), 0);
     for (Index i = 0; i < ring_.size (); ++i)
@@ -126,11 +127,6 @@ private:
   {
     kept_[t] = 0;
     dirty_.insert (dirty_.end (), triangles_[t].begin (), triangles_[t].end ());
-  }
-
-  bool shareEdge (Index p, Index t, Index u) const
-  {
-    return after (t, p, 1) == after (u, p, 2) || after (t, p, 2) == after (u, p, 1);
   }
 
   std::vector<Triangle>& triangles_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "consensus/orientation.h"
+#include "consensus/consensus.h"
 
 #include <algorithm>
 #include <cstdlib>

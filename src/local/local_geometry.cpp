@@ -12,12 +12,11 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t ADDED = 2; // neighbours added at a time, while all are collinear
-
 Eigen::Vector3d
 fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors,
            const PlaneLimits& limits)
 {
+  constexpr std::size_t ADDED = 2; // neighbours added at a time, while all are collinear
   PlaneFit core;
   core.add (Eigen::Vector3d::Zero ()); // the point itself
   std::size_t used = 0;

@@ -148,16 +148,15 @@ PlanarStar::beginAfterGap ()
 double
 PlanarStar::openingAngle () const
 {
-  constexpr double TWO_PI = 6.283185307179586;
   const auto cosine = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return std::clamp (a.dot (b) / std::sqrt (a.squaredNorm () * b.squaredNorm ()), -1.0, 1.0);
   };
   if (hull_.size () < 2)
-    return TWO_PI;
+    return 2.0 * PI;
   const Eigen::Vector2d &first = hull_.front ().offset, &last = hull_.back ().offset;
   double smallest = cosine (last, first);
   if (is_open_ && spansHalfTurn (last, first))
-    return TWO_PI - std::acos (smallest);
+    return 2.0 * PI - std::acos (smallest);
   for (std::size_t i = 1; i < hull_.size (); ++i)
     smallest = std::min (smallest, cosine (hull_[i - 1].offset, hull_[i].offset));
   return std::acos (smallest);

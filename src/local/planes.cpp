@@ -20,16 +20,12 @@ localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   return spacing;
 }
 
-namespace {
-constexpr std::size_t FIRST_RING = 8; // neighbours in the mean: the first ring
-constexpr double PERPENDICULAR = 0.1; // cosine below which its sign is unreliable
-constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
-} // namespace
-
 Eigen::Vector3d
 meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
             const std::vector<Eigen::Vector3f>& normals, Index p)
 {
+  constexpr std::size_t FIRST_RING = 8; // neighbours in the mean: the first ring
+  constexpr double PERPENDICULAR = 0.1; // cosine below which its sign is unreliable
   const Eigen::Vector3d normal = normals[p].cast<double> ();
   Eigen::Vector3d sum = normal;
   const Row row = neighbors.row (p);
@@ -51,6 +47,7 @@ std::vector<Eigen::Vector3f>
 smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
                  const std::vector<Eigen::Vector3f>& normals, const RunContext& run)
 {
+  constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
   std::vector<Eigen::Vector3f> smoothed (normals.size ());
   parallelPoints (run, normals.size (), [&] (Index p) {
     const Eigen::Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();

@@ -6,7 +6,6 @@
 #include "core/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -31,25 +30,6 @@ inSpace (const TangentFrame& frame, const Eigen::Vector2d& planar)
   return frame.x * planar.x () + frame.y * planar.y ();
 }
 
-// Fast test, much faster than a fit: false if neighbours spread too far to the sides of the
-// direction of the farthest for a line.
-bool
-mayBeLine (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& here, Row row)
-{
-  constexpr double WIDE = 0.3; // sum of squares across over along; 0.05 is a line
-  if (row.size () == 0)
-    return false;
-  const Eigen::Vector3d direction = (positions[row[row.size () - 1]] - here).normalized ();
-  double along = 0.0, all = 0.0;
-  for (const Index q : row) {
-    const Eigen::Vector3d offset = positions[q] - here;
-    const double step = direction.dot (offset);
-    along += step * step;
-    all += offset.squaredNorm ();
-  }
-  return all - along <= WIDE * along;
-}
-
 // Middle direction of the gap from the last neighbour of an open star to the first.
 Eigen::Vector2d
 middleOfGap (const std::vector<PlanarNeighbor>& star)
@@ -64,15 +44,6 @@ middleOfGap (const std::vector<PlanarNeighbor>& star)
     return {-last.y (), last.x ()};
   const bool is_reflex = cross (last, first) < 0.0;
   return is_reflex ? Eigen::Vector2d (-sum.normalized ()) : Eigen::Vector2d (sum.normalized ());
-}
-
-// Whether a point lies on the side of a search. The tree may return points behind its plane, which
-// depends on its nodes: they are rejected, with a tolerance for rounding.
-bool
-isInFront (const Eigen::Vector3d& ahead, const Eigen::Vector3d& offset)
-{
-  constexpr double LEAST_COSINE = 1e-9;
-  return ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ();
 }
 
 // Radius that a search for `wanted` points within `radius` has covered.
@@ -103,8 +74,20 @@ farthestFrom (const std::vector<Eigen::Vector3d>& positions, Index p, Row neares
 std::optional<Line>
 lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, double least_aspect)
 {
+  constexpr double WIDE = 0.3; // sum of squares across over along; 0.05 is a line
+  if (row.size () == 0)
+    return {};
+  // Much faster than a fit: whether neighbours spread to the sides of the direction of the farthest.
   const Eigen::Vector3d& here = positions[p];
-  if (!mayBeLine (positions, here, row))
+  const Eigen::Vector3d direction = (positions[row[row.size () - 1]] - here).normalized ();
+  double along = 0.0, all = 0.0;
+  for (const Index q : row) {
+    const Eigen::Vector3d offset = positions[q] - here;
+    const double step = direction.dot (offset);
+    along += step * step;
+    all += offset.squaredNorm ();
+  }
+  if (!(all - along <= WIDE * along))
     return {};
   PlaneFit fit;
   fit.add (Eigen::Vector3d::Zero ());
@@ -123,41 +106,35 @@ liesBeside (const Line& line, const Eigen::Vector3d& offset, const ReachLimits& 
          sqr_lateral >= limits.line_sine * limits.line_sine * offset.squaredNorm ();
 }
 
-namespace {
-// The line through a point and its neighbours, or through the nearer half of them if these lie on one
-// much more closely. Where the farther half has a few points of one line beside, but none of the
-// other, these neither surround the point nor fix its plane.
-std::optional<Line>
-lineAround (const std::vector<Eigen::Vector3d>& positions, Index p, const CsrLists& neighbors,
-            double least_aspect)
-{
-  constexpr std::size_t FEWEST = 10;
-  constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
-  const Row row = neighbors.row (p);
-  std::optional<Line> line = lineThrough (positions, p, row, least_aspect);
-  if (!line && row.size () > FEWEST)
-    line = lineThrough (positions, p, neighbors.first (p, std::max (FEWEST, row.size () / 2)),
-                        CLOSELY * least_aspect);
-  return line;
-}
-
-} // namespace
-
 float
 BesideSearch::extend (Index p, std::vector<Index>& row)
 {
-  constexpr double ROUNDED_UP = 1.0 + 1e-12;
+  constexpr double ROUNDED_UP = 1.0 + 1e-12, LEAST_COSINE = 1e-9;
+  constexpr std::size_t FEWEST = 10;
+  constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
   const Eigen::Vector3d& here = positions_[p];
-  const std::optional<Line> line = lineAround (positions_, p, planes_.neighbors, least_aspect_);
+  const Row around = planes_.neighbors.row (p);
+  std::optional<Line> line = lineThrough (positions_, p, around, least_aspect_);
+  // Or through the nearer half, if these lie on a line much more closely. Where the farther half has a
+  // few points of one line beside, but none of the other, these neither surround the point nor fix its
+  // plane.
+  if (!line && around.size () > FEWEST)
+    line = lineThrough (positions_, p,
+                        planes_.neighbors.first (p, std::max (FEWEST, around.size () / 2)),
+                        CLOSELY * least_aspect_);
   if (!line)
     return 0.0F;
+  // The tree may return points behind the plane of its search, which depends on its nodes: they are
+  // rejected, with a tolerance for rounding.
   Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
   const auto is_beside = [&] (const Neighbor&, const Eigen::Vector3d& position) {
     const Eigen::Vector3d offset = position - here;
-    return liesBeside (*line, offset, limits_) && (ahead.isZero (0.0) || isInFront (ahead, offset));
+    return liesBeside (*line, offset, limits_) &&
+           (ahead.isZero (0.0) ||
+            ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ());
   };
-  const double farthest = farthestFrom (positions_, p, planes_.neighbors.row (p),
-                                        static_cast<double> (planes_.spacing[p]), limits_);
+  const double farthest =
+      farthestFrom (positions_, p, around, static_cast<double> (planes_.spacing[p]), limits_);
   // First on the side of the nearest one, then on the opposite side.
   double nearest = 0.0;
   for (std::vector<Neighbor>& found : found_on_) {

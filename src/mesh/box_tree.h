@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace pcl::floater {
@@ -27,15 +28,19 @@ public:
   BoxTree (std::size_t count, BoxOf&& box_of, const RunContext& run)
       : boxes_ (count), levels_{std::vector<Box> ((count + LEAF_SIZE - 1) / LEAF_SIZE)}
   {
-    parallelRanges (run, leaves (), [&] (std::size_t first, std::size_t last) {
-      for (std::size_t leaf = first; leaf < last; ++leaf)
-        for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i) {
-          boxes_[i] = roundOutwards (box_of (i));
-          levels_.front ()[leaf].extend (boxes_[i]);
-        }
+    parallelPoints (run, leaves (), [&] (std::size_t leaf) {
+      for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i) {
+        boxes_[i] = roundOutwards (box_of (i));
+        levels_.front ()[leaf].extend (boxes_[i]);
+      }
     });
-    while (levels_.back ().size () > FAN)
-      levels_.push_back (groups (levels_.back ()));
+    while (levels_.back ().size () > FAN) {
+      const std::vector<Box>& below = levels_.back ();
+      std::vector<Box> around ((below.size () + FAN - 1) / FAN);
+      for (std::size_t i = 0; i < below.size (); ++i)
+        around[i / FAN].extend (below[i]);
+      levels_.push_back (std::move (around));
+    }
   }
 
   std::size_t leaves () const { return levels_.front ().size (); }
@@ -49,7 +54,11 @@ public:
     for (std::size_t leaf = first; leaf < last; ++leaf)
       around.extend (levels_.front ()[leaf]);
     std::vector<std::size_t> near;
-    forLeaves (around, first, [&near] (std::size_t other) { near.push_back (other); });
+    const auto add = [&near] (std::size_t other) {
+      near.push_back (other);
+      return false;
+    };
+    forNodes ([&around] (const Box& node) { return around.overlaps (node); }, add, first);
     for (std::size_t leaf = first; leaf < last; ++leaf)
       for (const std::size_t other : near)
         if (other >= leaf && levels_.front ()[leaf].overlaps (levels_.front ()[other]))
@@ -62,13 +71,7 @@ public:
   void forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
   {
     const Box box = roundOutwards (exact);
-    forNodes ([&box] (const Box& node) { return box.overlaps (node); },
-              [&] (std::size_t leaf) {
-                for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
-                  if (boxes_[i].overlaps (box) && visit (i))
-                    return true;
-                return false;
-              });
+    forMet ([&box] (const Box& other) { return box.overlaps (other); }, visit);
   }
 
   /// Calls visit (j) for all boxes j that a ray meets, unsorted, until it returns true. O(log n)
@@ -79,13 +82,7 @@ public:
                     Visit&& visit) const
   {
     const Ray ray (origin, direction);
-    forNodes ([&] (const Box& box) { return ray.meets (box); },
-              [&] (std::size_t leaf) {
-                for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
-                  if (ray.meets (boxes_[i]) && visit (i))
-                    return true;
-                return false;
-              });
+    forMet ([&ray] (const Box& box) { return ray.meets (box); }, visit);
   }
 
   /// Replaces box i. Nodes around it only grow: many distant changes make searches slower.
@@ -163,16 +160,16 @@ private:
             visit (i, k);
   }
 
-  // Calls visit for the leaves from `first` on that overlap a box.
-  template <typename Visit>
-  void forLeaves (const Box& box, std::size_t first, Visit&& visit) const
+  // Calls visit for the boxes that satisfy is_met, until it returns true.
+  template <typename IsMet, typename Visit>
+  void forMet (const IsMet& is_met, Visit&& visit) const
   {
-    forNodes ([&box] (const Box& node) { return box.overlaps (node); },
-              [&visit] (std::size_t leaf) {
-                visit (leaf);
-                return false;
-              },
-              first);
+    forNodes (is_met, [&] (std::size_t leaf) {
+      for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
+        if (is_met (boxes_[i]) && visit (i))
+          return true;
+      return false;
+    });
   }
 
   // Calls visit for the leaves from `first` on whose nodes all satisfy is_met, ascending, until it
@@ -226,14 +223,6 @@ private:
         box.high[axis] = std::nextafter (box.high[axis], FAR);
     }
     return box;
-  }
-
-  static std::vector<Box> groups (const std::vector<Box>& boxes)
-  {
-    std::vector<Box> around ((boxes.size () + FAN - 1) / FAN);
-    for (std::size_t i = 0; i < boxes.size (); ++i)
-      around[i / FAN].extend (boxes[i]);
-    return around;
   }
 
   static constexpr unsigned LOG_FAN = 2;

@@ -19,20 +19,18 @@ spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                const RunContext& run)
 {
   std::vector<float> spacing (positions.size (), 0.0F);
-  parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Index> fan, ring;
-    std::vector<float> lengths;
-    for (auto p = static_cast<Index> (first); p < last; ++p) {
-      if (mesh.triangle_of[p] == NONE)
-        continue;
-      if (mesh.fan (p, fan, ring))
-        ring.push_back (ring.front ()); // one of its edges counts twice
-      lengths.clear ();
-      for (const Index q : ring)
-        lengths.push_back (static_cast<float> ((positions[q] - positions[p]).norm ()));
-      spacing[p] = median (lengths);
-    }
-  });
+  using Indices = std::vector<Index>;
+  const auto measure = [&] (Index p, Indices& fan, Indices& ring, std::vector<float>& lengths) {
+    if (mesh.triangle_of[p] == NONE)
+      return;
+    if (mesh.fan (p, fan, ring))
+      ring.push_back (ring.front ()); // one of its edges counts twice
+    lengths.clear ();
+    for (const Index q : ring)
+      lengths.push_back (static_cast<float> ((positions[q] - positions[p]).norm ()));
+    spacing[p] = median (lengths);
+  };
+  parallelPoints<Indices, Indices, std::vector<float>> (run, positions.size (), measure);
   std::vector<float> known;
   std::copy_if (spacing.begin (), spacing.end (), std::back_inserter (known),
                 [] (float value) { return value > 0.0F; });

@@ -54,11 +54,13 @@ public:
 
   bool isCrossing (Index t) const { return partners_.count (t) != 0; }
 
-  /// Triangles that cross one; nullptr: none.
-  const std::vector<Index>* partnersOf (Index t) const
+  /// Triangles that cross one.
+  Row partnersOf (Index t) const
   {
     const auto known = partners_.find (t);
-    return known == partners_.end () ? nullptr : &known->second;
+    if (known == partners_.end ())
+      return {};
+    return {known->second.data (), known->second.data () + known->second.size ()};
   }
 
   /// Number of pairs with one of these triangles.
@@ -67,9 +69,8 @@ public:
   {
     long pairs = 0;
     for (const Index t : triangles)
-      if (const std::vector<Index>* const partners = partnersOf (t))
-        pairs += std::count_if (partners->begin (), partners->end (),
-                                [&] (Index u) { return isCountedAt (t, u, triangles); });
+      for (const Index u : partnersOf (t))
+        pairs += isCountedAt (t, u, triangles) ? 1 : 0;
     return pairs;
   }
 

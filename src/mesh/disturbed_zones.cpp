@@ -14,49 +14,6 @@
 
 namespace pcl::floater {
 namespace {
-// Whether some ball through the corners of a triangle has no other point inside, as far as the
-// given points tell.
-class EmptyBall
-{
-public:
-  EmptyBall (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
-      : triangle_ (triangle), corner_ (positions[triangle[0]])
-  {
-    const Eigen::Vector3d ab = positions[triangle[1]] - corner_,
-                          ac = positions[triangle[2]] - corner_;
-    normal_ = ab.cross (ac);
-    to_centre_ = toCircumcentre (ab, ac, normal_);
-  }
-
-  // Excludes the balls with this point inside. The centre of a ball is that of the circle plus a
-  // multiple of the normal.
-  void exclude (Index p, const Eigen::Vector3d& position)
-  {
-    if (p == triangle_[0] || p == triangle_[1] || p == triangle_[2])
-      return;
-    const Eigen::Vector3d offset = position - corner_;
-    const double up = 2.0 * normal_.dot (offset),
-                 outside = offset.squaredNorm () - 2.0 * offset.dot (to_centre_);
-    if (up > 0.0)
-      most_ = std::min (most_, outside / up);
-    else if (up < 0.0)
-      least_ = std::max (least_, outside / up);
-  }
-
-  // Points on one sphere count as outside, whatever their rounding.
-  bool isPossible () const
-  {
-    constexpr double ROUNDING = 1e-9;
-    return least_ <= most_ + ROUNDING * (std::abs (least_) + std::abs (most_));
-  }
-
-private:
-  Triangle triangle_;
-  Eigen::Vector3d corner_, normal_, to_centre_;
-  double least_ = -std::numeric_limits<double>::infinity (),
-         most_ = std::numeric_limits<double>::infinity ();
-};
-
 class ZoneFinder
 {
 public:
@@ -215,30 +172,44 @@ private:
     return points;
   }
 
+  // Whether some ball through the corners of a triangle has none of the points around inside. The
+  // centre of a ball is that of the circle plus a multiple of the normal.
   bool isDelaunay (Index t) const
   {
-    EmptyBall ball (mesh_.triangles[t], positions_);
-    for (const Index corner : mesh_.triangles[t])
-      for (const Index p : neighbors_.row (corner))
-        ball.exclude (p, positions_[p]);
-    return ball.isPossible ();
+    const Triangle& corners = mesh_.triangles[t];
+    const Eigen::Vector3d& a = positions_[corners[0]];
+    const Eigen::Vector3d ab = positions_[corners[1]] - a, ac = positions_[corners[2]] - a,
+                          normal = ab.cross (ac), to_centre = toCircumcentre (ab, ac, normal);
+    double least = -std::numeric_limits<double>::infinity (), most = -least;
+    for (const Index corner : corners)
+      for (const Index p : neighbors_.row (corner)) {
+        if (isCorner (corners, p))
+          continue;
+        const Eigen::Vector3d offset = positions_[p] - a;
+        const double up = 2.0 * normal.dot (offset),
+                     outside = offset.squaredNorm () - 2.0 * offset.dot (to_centre);
+        if (up > 0.0)
+          most = std::min (most, outside / up);
+        else if (up < 0.0)
+          least = std::max (least, outside / up);
+      }
+    constexpr double ROUNDING = 1e-9; // points on one sphere count as outside
+    return least <= most + ROUNDING * (std::abs (least) + std::abs (most));
   }
 
   void markDisturbed ()
   {
     const std::size_t count = mesh_.triangles.size ();
     std::vector<std::uint8_t> is_marked (count, 0);
-    parallelRanges (run_, count, [&] (std::size_t first, std::size_t last) {
-      for (auto t = static_cast<Index> (first); t < last; ++t) {
-        const Eigen::Vector3d normal = normalOf (t);
-        bool bends = false, folds = false;
-        for (const Index u : mesh_.neighbors[t])
-          if (u != NONE) {
-            bends = bends || isBent (normal, normalOf (u));
-            folds = folds || isFold (normal, normalOf (u));
-          }
-        is_marked[t] = folds || (bends && !isDelaunay (t)) ? 1 : 0;
-      }
+    parallelPoints (run_, count, [&] (Index t) {
+      const Eigen::Vector3d normal = normalOf (t);
+      bool bends = false, folds = false;
+      for (const Index u : mesh_.neighbors[t])
+        if (u != NONE) {
+          bends = bends || isBent (normal, normalOf (u));
+          folds = folds || isFold (normal, normalOf (u));
+        }
+      is_marked[t] = folds || (bends && !isDelaunay (t)) ? 1 : 0;
     });
     for (Index t = 0; t < count; ++t)
       if (is_marked[t] != 0)

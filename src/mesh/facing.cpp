@@ -275,13 +275,6 @@ private:
     }
   }
 
-  // Whether the rules for bodies decided, before nesting is known.
-  bool mayBeHollow (Index o) const
-  {
-    return is_body_[o] != 0 &&
-           (judged_[o].rule == FacingRule::CLOSED || judged_[o].rule == FacingRule::BODY);
-  }
-
   // Whether one object may lie within another.
   bool mayLieIn (Index o, Index other) const
   {
@@ -305,8 +298,8 @@ private:
         bodies.push_back (o);
     std::vector<std::vector<Index>> around (judged_.size ());
     for (const Index o : bodies) {
-      if (!mayBeHollow (o))
-        continue;
+      if (judged_[o].rule != FacingRule::CLOSED && judged_[o].rule != FacingRule::BODY)
+        continue; // the rules for bodies have not decided
       for (const Index other : bodies)
         if (other != o && mayLieIn (o, other))
           around[o].push_back (other);

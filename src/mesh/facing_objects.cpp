@@ -6,7 +6,6 @@
 #include "core/parallel.h"
 #include "points/kd_tree.h"
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -147,23 +146,20 @@ findContinuations (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
   };
   const KdTree tree (middles, run);
   std::vector<Vote> votes (edges.size ());
-  parallelRanges (run, votes.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Neighbor> found;
-    for (std::size_t i = first; i < last; ++i) {
-      const OpenEdge& edge = edges[i];
-      const auto to = [&] (Index j, const Eigen::Vector3d& middle) {
-        return agreement (edge, edges[j], (middle - middles[i]).normalized (), limits.cosine);
-      };
-      const auto faces = [&] (const Neighbor& near, const Eigen::Vector3d& middle) {
-        return std::abs (to (near.point, middle)) > 0.0;
-      };
-      const double reach = limits.reach * (length[edge.component] / count[edge.component]);
-      tree.nearestIf (middles[i], edge.ahead, reach, 1, faces, found);
-      if (found.empty ())
-        continue;
-      const Index j = found.front ().point;
-      if (edges[j].component != edge.component)
-        votes[i] = {edges[j].component, edge.length * to (j, middles[j])};
+  using Neighbors = std::vector<Neighbor>;
+  parallelPoints<Neighbors> (run, votes.size (), [&] (Index i, Neighbors& near) {
+    const OpenEdge& edge = edges[i];
+    const auto to = [&] (Index j, const Eigen::Vector3d& middle) {
+      return agreement (edge, edges[j], (middle - middles[i]).normalized (), limits.cosine);
+    };
+    const auto faces = [&] (const Neighbor& neighbor, const Eigen::Vector3d& middle) {
+      return std::abs (to (neighbor.point, middle)) > 0.0;
+    };
+    const double reach = limits.reach * (length[edge.component] / count[edge.component]);
+    tree.nearestIf (middles[i], edge.ahead, reach, 1, faces, near);
+    if (!near.empty () && edges[near.front ().point].component != edge.component) {
+      const Index j = near.front ().point;
+      votes[i] = {edges[j].component, edge.length * to (j, middles[j])};
     }
   });
   std::map<std::pair<Index, Index>, std::pair<double, double>> sums; // signed and unsigned weights

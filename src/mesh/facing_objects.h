@@ -58,12 +58,6 @@ struct FacingObjects
   double sign (Index component) const { return is_opposite[component] != 0 ? -1.0 : 1.0; }
 };
 
-inline Eigen::Vector3d
-middleOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
-{
-  return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
-}
-
 /// Joins components that continue each other across a gap. For each boundary edge, finds the nearest one
 /// ahead that faces it. If it belongs to another component, that one continues this one. If both edges
 /// run in the same direction, the fronts are on opposite sides, whatever the angle between the

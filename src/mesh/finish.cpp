@@ -14,22 +14,6 @@ constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
 // the same.
 constexpr int WIDEST = 3, WIDEST_AGAIN = 2;
 
-Repairs
-repair (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, LocalGeometry& geometry,
-        Repair kind, const FinishLimits& limits, MeshFinish& finish, const RunContext& run)
-{
-  // The triangles have changed; normals may have the wrong sign now.
-  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
-  orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
-  const Repairs done = repairFlaws (
-      mesh, *finish.crossing, geometry.neighbors,
-      TriangleCost (positions, normals, &geometry.meshSpacing (), limits.cost), positions, kind,
-      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits.repair,
-      run);
-  finish.repairs += done;
-  return done;
-}
-
 // Fills small loops beside zones that were made anew. They are no openings.
 std::size_t
 fillPinholes (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
@@ -42,8 +26,7 @@ fillPinholes (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   const auto isBeside = [&] (Index p) {
     mesh.fan (p, fan);
     return std::any_of (fan.begin (), fan.end (), [&] (Index t) {
-      const Triangle& c = mesh.triangles[t];
-      return std::any_of (c.begin (), c.end (), [&] (Index q) { return is_remade[q] != 0; });
+      return anyCorner (mesh.triangles[t], [&] (Index q) { return is_remade[q] != 0; });
     });
   };
   for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
@@ -106,24 +89,33 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     if (finish.folds + finish.pairs_found + finish.remade.points () + finish.necks_cut > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
-      if (!finish.remade.is_noise &&
-          repair (mesh, positions, geometry, Repair::BEFORE_REMAKING, settings.limits, finish, run)
-              .hasChanged ())
+      if (!finish.remade.is_noise && repairMesh (mesh, positions, geometry, Repair::BEFORE_REMAKING,
+                                                 settings.limits, finish, run)
+                                         .hasChanged ())
         remake (WIDEST_AGAIN);
       if (!settings.are_points_added)
-        repairAtEnd (mesh, positions, geometry, settings.limits, finish, run);
+        repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
     }
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
   return finish;
 }
 
-void
-repairAtEnd (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             LocalGeometry& geometry, const FinishLimits& limits, MeshFinish& finish,
-             const RunContext& run)
+Repairs
+repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            LocalGeometry& geometry, Repair kind, const FinishLimits& limits, MeshFinish& finish,
+            const RunContext& run)
 {
-  repair (mesh, positions, geometry, Repair::AT_THE_END, limits, finish, run);
+  // The triangles have changed; normals may have the wrong sign now.
+  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
+  const Repairs done = repairFlaws (
+      mesh, *finish.crossing, geometry.neighbors,
+      TriangleCost (positions, normals, &geometry.meshSpacing (), limits.cost), positions, kind,
+      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits.repair,
+      run);
+  finish.repairs += done;
+  return done;
 }
 
 } // namespace pcl::floater

@@ -66,11 +66,11 @@ MeshFinish
 finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
             LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run);
 
-/// The last repair, which finishMesh () makes unless points are to be added.
+/// Repairs flaws. finishMesh () does so, the last time unless points are to be added.
 /// \param[in,out] finish knows all crossing pairs, and what was made anew
-void
-repairAtEnd (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             LocalGeometry& geometry, const FinishLimits& limits, MeshFinish& finish,
-             const RunContext& run);
+Repairs
+repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            LocalGeometry& geometry, Repair kind, const FinishLimits& limits, MeshFinish& finish,
+            const RunContext& run);
 
 } // namespace pcl::floater

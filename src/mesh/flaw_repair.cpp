@@ -9,7 +9,6 @@
 #include "mesh/vertex_mover.h"
 
 #include <algorithm>
-#include <limits>
 #include <random>
 #include <unordered_map>
 
@@ -48,9 +47,8 @@ findFlawed (const TriangleMesh& mesh, const TriangleCost& cost,
     return areaVectorOf (mesh.triangles[t], positions);
   };
   std::vector<std::uint8_t> is_flawed (mesh.triangles.size ());
-  parallelRanges (run, is_flawed.size (), [&] (std::size_t first, std::size_t last) {
-    for (auto t = static_cast<Index> (first); t < last; ++t)
-      is_flawed[t] = isFlawed (mesh, cost, t, repair, ridges, normal) ? 1 : 0;
+  parallelPoints (run, is_flawed.size (), [&] (Index t) {
+    is_flawed[t] = isFlawed (mesh, cost, t, repair, ridges, normal) ? 1 : 0;
   });
   return is_flawed;
 }
@@ -173,10 +171,8 @@ private:
   void rebuildAll ()
   {
     std::vector<Index> triangles = flawedTriangles ();
-    const auto order = [this] (Index t) {
-      const std::vector<Index>* const partners = table_.partnersOf (t);
-      return partners == nullptr ? std::numeric_limits<std::size_t>::max () : partners->size ();
-    };
+    // Without partners, the largest number.
+    const auto order = [this] (Index t) { return table_.partnersOf (t).size () - 1; };
     std::stable_sort (triangles.begin (), triangles.end (),
                       [&] (Index t, Index u) { return order (t) < order (u); });
     std::size_t tries = 0, successes = 0;
@@ -200,12 +196,11 @@ private:
     const auto add = [&] (Index u) {
       patch.insert (patch.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
     };
-    if (const std::vector<Index>* const partners = table_.partnersOf (t))
-      std::for_each (partners->begin (), partners->end (), add);
-    else
-      for (const Index u : mesh_.neighbors[t])
-        if (u != NONE)
-          add (u);
+    for (const Index u : table_.partnersOf (t))
+      add (u);
+    for (const Index u : mesh_.neighbors[t])
+      if (u != NONE && !table_.isCrossing (t))
+        add (u);
     sortUnique (patch);
     for (std::size_t ring = 0; ring < limits_.rebuilt_rings; ++ring) {
       if (ring > 0)
@@ -258,9 +253,8 @@ private:
     for (const Index u : mesh_.neighbors[t])
       if (u != NONE)
         last = std::max (last, changed_in_[u]);
-    if (const std::vector<Index>* const partners = table_.partnersOf (t))
-      for (const Index u : *partners)
-        last = std::max (last, changed_in_[u]);
+    for (const Index u : table_.partnersOf (t))
+      last = std::max (last, changed_in_[u]);
     return last;
   }
 

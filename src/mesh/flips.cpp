@@ -10,12 +10,6 @@
 #include <cmath>
 
 namespace pcl::floater {
-namespace {
-constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
-constexpr std::size_t EDGES_PER_POLL = 256;
-constexpr std::size_t TRIANGLES_PER_TASK = 8192; // worth a cache of costs
-} // namespace
-
 void
 orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
                std::vector<Eigen::Vector3f>& normals, const RunContext& run,
@@ -71,6 +65,7 @@ splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double 
 void
 EdgeFlipper::run ()
 {
+  constexpr std::size_t EDGES_PER_POLL = 256;
   const std::size_t pushed = stack_.size ();
   std::size_t edges = 0;
   ProgressLoop progress (run_, pushed);
@@ -135,6 +130,7 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
       then + at_edge (then_cad.unit_normal, then_dbc.unit_normal) +
       at_edge (at_bc, then_dbc.unit_normal) + at_edge (at_ca, then_cad.unit_normal) +
       at_edge (at_ad, then_cad.unit_normal) + at_edge (at_db, then_dbc.unit_normal);
+  constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
   if (total_then >= total - IMPROVES * std::abs (total) || mesh_.hasEdge (c, d))
     return 0.0;
   return total_then - total;
@@ -143,6 +139,7 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
 std::size_t
 flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
 {
+  constexpr std::size_t TRIANGLES_PER_TASK = 8192; // worth a cache of costs
   const std::size_t count = mesh.triangles.size ();
   std::vector<std::vector<MeshEdge>> found ((count + TRIANGLES_PER_TASK - 1) / TRIANGLES_PER_TASK);
   parallelTasks (run, found.size (), [&] (std::size_t task) {

@@ -14,20 +14,18 @@ volumesOf (const TriangleMesh& mesh, const MeshComponents& components,
 {
   std::vector<Eigen::Vector3d> middle (components.count, Eigen::Vector3d::Zero ());
   std::vector<double> volume (components.count, 0.0), area (components.count, 0.0);
-  const auto centroid = [&] (const Triangle& t) -> Eigen::Vector3d {
-    return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
-  };
   for (std::size_t i = 0; i < mesh.triangles.size (); ++i) {
     const Triangle& t = mesh.triangles[i];
     const double own = areaVectorOf (t, positions).norm ();
-    middle[components.of_triangle[i]] += own * centroid (t);
+    middle[components.of_triangle[i]] += own * middleOf (t, positions);
     area[components.of_triangle[i]] += own;
   }
   for (std::size_t i = 0; i < mesh.triangles.size (); ++i) {
     const Triangle& t = mesh.triangles[i];
     const Index c = components.of_triangle[i];
     if (area[c] > 0.0)
-      volume[c] += (centroid (t) - middle[c] / area[c]).dot (areaVectorOf (t, positions));
+      volume[c] +=
+          (middleOf (t, positions) - middle[c] / area[c]).dot (areaVectorOf (t, positions));
   }
   return volume;
 }
@@ -35,26 +33,19 @@ volumesOf (const TriangleMesh& mesh, const MeshComponents& components,
 
 std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const RunContext& run)
+           const RunContext& run, AreFolded are_folded)
 {
-  // Sides of each triangle at which it is folded against one of a higher index, as bits.
-  std::vector<std::uint8_t> sides (mesh.triangles.size (), 0);
-  parallelRanges (run, sides.size (), [&] (std::size_t first, std::size_t last) {
+  RangeLists<MeshEdge> folds (mesh.triangles.size ());
+  parallelRanges (run, mesh.triangles.size (), [&] (std::size_t first, std::size_t last) {
     for (auto t = static_cast<Index> (first); t < last; ++t) {
       const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index u = mesh.neighbors[t][side];
-        if (u != NONE && t < u && isFold (own, areaVectorOf (mesh.triangles[u], positions)))
-          sides[t] = static_cast<std::uint8_t> (sides[t] | (1U << side));
-      }
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (const Index u = mesh.neighbors[t][side];
+            u != NONE && t < u && are_folded (own, areaVectorOf (mesh.triangles[u], positions)))
+          folds.of (first).push_back ({t, side});
     }
   });
-  std::vector<MeshEdge> folds;
-  for (Index t = 0; t < sides.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side)
-      if (((sides[t] >> side) & 1U) != 0)
-        folds.push_back ({t, side});
-  return folds;
+  return folds.join ();
 }
 
 Ridges
@@ -69,10 +60,8 @@ findRidges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
   const std::vector<double> volume = volumesOf (mesh, components, positions);
   std::vector<std::uint8_t> is_trusted (mesh.triangles.size ());
   for (std::size_t t = 0; t < is_trusted.size (); ++t)
-    is_trusted[t] = std::any_of (mesh.triangles[t].begin (), mesh.triangles[t].end (),
-                                 [&] (Index p) { return is_remade[p] != 0; })
-                        ? 1
-                        : 0;
+    is_trusted[t] =
+        anyCorner (mesh.triangles[t], [&] (Index p) { return is_remade[p] != 0; }) ? 1 : 0;
   for (const CrossingPair& pair : crossing)
     is_trusted[pair.first] = is_trusted[pair.second] = 0;
   for (Index t = 0; t < is_trusted.size (); ++t)

@@ -13,10 +13,13 @@
 #include <vector>
 
 namespace pcl::floater {
-/// Edges whose two triangles are more than 120 degrees apart (isFold), each once. O(n).
+/// Tells a folded edge by the area vectors of its triangles: isFold (), or isBent ().
+using AreFolded = bool (*) (const Eigen::Vector3d&, const Eigen::Vector3d&);
+
+/// Folded edges, each once, in the order of their triangles. O(n).
 std::vector<MeshEdge>
 findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const RunContext& run);
+           const RunContext& run, AreFolded are_folded = isFold);
 
 /// Edges at sharp ridges, such as those of a blade.
 struct Ridges

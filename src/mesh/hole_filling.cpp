@@ -12,13 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-using Edge = std::pair<Index, Index>;
-
-Edge
-edgeOf (Index p, Index q)
-{
-  return {std::min (p, q), std::max (p, q)};
-}
+using Edge = std::pair<Index, Index>; // the smaller point first
 
 // Fills loops one by one. Edges of earlier fillings count as edges of the mesh.
 class HoleFiller
@@ -43,8 +37,8 @@ public:
     std::vector<Triangle> triangles;
     std::set<Edge> ears; // edges that cut off an ear of this loop
     const auto allowed = [&] (Index p, Index q) {
-      return !mesh_.hasEdge (p, q) && new_edges_.count (edgeOf (p, q)) == 0 &&
-             ears.count (edgeOf (p, q)) == 0;
+      return !mesh_.hasEdge (p, q) && new_edges_.count (std::minmax (p, q)) == 0 &&
+             ears.count (std::minmax (p, q)) == 0;
     };
     if (!cutEars (polygon, triangles, ears, allowed))
       return false;
@@ -55,7 +49,7 @@ public:
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
     for (const Triangle& t : triangles)
       for (std::size_t i = 0; i < 3; ++i)
-        new_edges_.insert (edgeOf (t[i], t[(i + 1) % 3]));
+        new_edges_.insert (std::minmax (t[i], t[(i + 1) % 3]));
     filled_.insert (filled_.end (), triangles.begin (), triangles.end ());
     return true;
   }
@@ -104,7 +98,7 @@ private:
         continue;
       }
       triangles.push_back ({polygon[a], polygon[i], polygon[b]});
-      ears.insert (edgeOf (polygon[a], polygon[b]));
+      ears.insert (std::minmax (polygon[a], polygon[b]));
       after[a] = b;
       before[b] = a;
       after[i] = NONE;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/hole_widening.h"
+#include "mesh/loops.h"
 
 #include "core/geometry.h"
 #include "mesh/open_boundary.h"

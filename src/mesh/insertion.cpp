@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/insertion.h"
 
-#include "core/run_context.h"
-
 #include <limits>
 #include <queue>
 #include <tuple>

@@ -13,56 +13,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t WIDTH_POINTS = 256; // maximum for the width: its time is quadratic
-
-double
-widthOf (const std::vector<Index>& points, const std::vector<Eigen::Vector3d>& positions)
-{
-  const std::size_t step = (points.size () + WIDTH_POINTS - 1) / WIDTH_POINTS;
-  double sqr_width = 0.0;
-  for (std::size_t i = 0; i < points.size (); i += step)
-    for (std::size_t j = 0; j < i; j += step)
-      sqr_width =
-          std::max (sqr_width, (positions[points[i]] - positions[points[j]]).squaredNorm ());
-  return std::sqrt (sqr_width);
-}
-
-} // namespace
-
-void
-measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<float>& spacing)
-{
-  const std::size_t count = loop.points.size ();
-  loop.length = loop.spacing = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Index p = loop.points[i];
-    loop.length += (positions[loop.points[i + 1 == count ? 0 : i + 1]] - positions[p]).norm ();
-    loop.spacing += spacing[p];
-  }
-  loop.spacing /= static_cast<double> (std::max<std::size_t> (1, count));
-  loop.width = widthOf (loop.points, positions);
-}
-
-std::vector<BoundaryLoop>
-findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
-                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-                   const RunContext& run)
-{
-  std::vector<BoundaryLoop> loops;
-  ProgressLoop progress (run);
-  for (std::vector<Index>& points : boundaryLoops (mesh, run)) {
-    progress.next ();
-    BoundaryLoop loop;
-    loop.component = components.of_triangle[mesh.triangle_of[points.front ()]];
-    loop.points = std::move (points);
-    measureLoop (loop, positions, spacing);
-    loops.push_back (std::move (loop));
-  }
-  return loops;
-}
-
-namespace {
 constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have arbitrary values
 
 // Corners of a loop in its filling; a longer one is sampled in even steps. Limits the time, which
@@ -199,18 +149,17 @@ lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
   for (const Index p : loop.points)
     centre += positions[p] / static_cast<double> (count);
   Eigen::Vector3d double_area = Eigen::Vector3d::Zero ();
-  double curvature = 0.0, length = 0.0, squares = 0.0;
+  double curvature = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Index p = loop.points[i], q = loop.points[i + 1 == count ? 0 : i + 1];
     const double step = (positions[q] - positions[p]).norm ();
-    length += step;
     squares += step * step;
     double_area += (positions[p] - centre).cross (positions[q] - centre);
     curvature += rings.curvature (p);
   }
   const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
   LoopEvidence evidence;
-  evidence.compactness = 2.0 * PI * double_area.norm () / (length * length);
+  evidence.compactness = 2.0 * PI * double_area.norm () / (loop.length * loop.length);
   const double edge = std::sqrt (squares / static_cast<double> (count));
   evidence.depth = findDepth (loop.points, positions, filling) / edge;
   evidence.irregularity = edges[2].deviation ();
@@ -235,7 +184,68 @@ judge (const BoundaryLoop& loop, const LoopEvidence& evidence, const OpenLoopLim
   return judgement;
 }
 
+// The loops by descending key; stable.
+template <typename Key>
+std::vector<BoundaryLoop*>
+fromLargest (std::vector<BoundaryLoop>& loops, Key&& key)
+{
+  std::vector<BoundaryLoop*> order;
+  order.reserve (loops.size ());
+  for (BoundaryLoop& loop : loops)
+    order.push_back (&loop);
+  std::stable_sort (
+      order.begin (), order.end (),
+      [&key] (const BoundaryLoop* a, const BoundaryLoop* b) { return key (*b) < key (*a); });
+  return order;
+}
+
+// Likely boundaries first, by value; then the others by their empty length.
+std::pair<bool, double>
+rank (const LoopJudgement& judgement, double value)
+{
+  return judgement.log_odds > 0.0 ? std::make_pair (true, value)
+                                  : std::make_pair (false, judgement.empty_length);
+}
+
 } // namespace
+
+void
+measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
+             const std::vector<float>& spacing)
+{
+  constexpr std::size_t WIDTH_POINTS = 256; // maximum for the width: its time is quadratic
+  const std::vector<Index>& points = loop.points;
+  loop.length = perimeter (positions, points);
+  loop.spacing = 0.0;
+  for (const Index p : points)
+    loop.spacing += spacing[p];
+  loop.spacing /= static_cast<double> (std::max<std::size_t> (1, points.size ()));
+  const std::size_t step = (points.size () + WIDTH_POINTS - 1) / WIDTH_POINTS;
+  double sqr_width = 0.0;
+  for (std::size_t i = 0; i < points.size (); i += step)
+    for (std::size_t j = 0; j < i; j += step)
+      sqr_width =
+          std::max (sqr_width, (positions[points[i]] - positions[points[j]]).squaredNorm ());
+  loop.width = std::sqrt (sqr_width);
+}
+
+std::vector<BoundaryLoop>
+findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
+                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+                   const RunContext& run)
+{
+  std::vector<BoundaryLoop> loops;
+  ProgressLoop progress (run);
+  for (std::vector<Index>& points : boundaryLoops (mesh, run)) {
+    progress.next ();
+    BoundaryLoop loop;
+    loop.component = components.of_triangle[mesh.triangle_of[points.front ()]];
+    loop.points = std::move (points);
+    measureLoop (loop, positions, spacing);
+    loops.push_back (std::move (loop));
+  }
+  return loops;
+}
 
 std::vector<LoopEvidence>
 judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
@@ -281,32 +291,6 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
   }
   return evidence;
 }
-
-namespace {
-// The loops by descending key; stable.
-template <typename Key>
-std::vector<BoundaryLoop*>
-fromLargest (std::vector<BoundaryLoop>& loops, Key&& key)
-{
-  std::vector<BoundaryLoop*> order;
-  order.reserve (loops.size ());
-  for (BoundaryLoop& loop : loops)
-    order.push_back (&loop);
-  std::stable_sort (
-      order.begin (), order.end (),
-      [&key] (const BoundaryLoop* a, const BoundaryLoop* b) { return key (*b) < key (*a); });
-  return order;
-}
-
-// Likely boundaries first, by value; then the others by their empty length.
-std::pair<bool, double>
-rank (const LoopJudgement& judgement, double value)
-{
-  return judgement.log_odds > 0.0 ? std::make_pair (true, value)
-                                  : std::make_pair (false, judgement.empty_length);
-}
-
-} // namespace
 
 bool
 isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits)

@@ -6,7 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/insertion.h"
-#include "mesh/neck_loops.h"
 #include "mesh/self_intersections.h"
 
 #include <algorithm>

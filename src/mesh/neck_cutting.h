@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cuts necks that the points do not support.
+// Cuts necks that the points do not support, and finds loops around necks.
 #pragma once
 
 #include "local/local_geometry.h"
@@ -36,5 +36,18 @@ std::size_t
 cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
           const LocalGeometry& geometry, std::vector<std::uint8_t> is_skipped,
           const NeckLimits& limits, const RunContext& run);
+
+/// Loops of at most `longest` edges around a neck with bent edges: a bridge between two parts of a
+/// mesh, or a tunnel through a wall. Around each point of an edge that is bent by more than 60
+/// degrees, triangles are taken breadth first. They are a disc, until they reach around a neck: then
+/// the triangles beyond are in two parts, neither of them smaller than a sphere that such a loop
+/// goes around. A short loop between these parts is taken. None is looked for beside the boundary.
+/// O(n), plus some microseconds for each bent edge.
+/// \param is_skipped of each point: no loop is looked for from there; empty: from all
+/// \return the points of each loop, in order; the shortest loops first
+std::vector<std::vector<Index>>
+findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+               const std::vector<std::uint8_t>& is_skipped, std::size_t longest,
+               const RunContext& run);
 
 } // namespace pcl::floater

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/neck_loops.h"
+#include "mesh/neck_cutting.h"
 
 #include "core/geometry.h"
 #include "core/order_statistics.h"
-#include "core/parallel.h"
+#include "mesh/folds.h"
 
 #include <algorithm>
 #include <array>
@@ -254,38 +254,6 @@ private:
   std::vector<Index> cap_, fan_, ring_; // scratch
 };
 
-// Points of bent edges.
-std::vector<Index>
-pointsOfBentEdges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const RunContext& run)
-{
-  RangeLists<Index> found (mesh.triangles.size ());
-  parallelRanges (run, mesh.triangles.size (), [&] (std::size_t first, std::size_t last) {
-    std::vector<Index>& points = found.of (first);
-    for (auto t = static_cast<Index> (first); t < last; ++t) {
-      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (const Index u = mesh.neighbors[t][side];
-            u != NONE && t < u && isBent (own, areaVectorOf (mesh.triangles[u], positions))) {
-          points.push_back (mesh.from ({t, side}));
-          points.push_back (mesh.to ({t, side}));
-        }
-    }
-  });
-  std::vector<Index> points = found.join ();
-  sortUnique (points);
-  return points;
-}
-
-// From the smallest point, towards the smaller one beside it.
-void
-putInOrder (std::vector<Index>& loop)
-{
-  std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
-  if (loop.back () < loop[1])
-    std::reverse (loop.begin () + 1, loop.end ());
-}
-
 } // namespace
 
 std::vector<std::vector<Index>>
@@ -294,7 +262,10 @@ findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                const RunContext& run)
 {
   std::vector<std::vector<Index>> found;
-  const std::vector<Index> starts = pointsOfBentEdges (mesh, positions, run);
+  std::vector<Index> starts;
+  for (const MeshEdge e : findFolds (mesh, positions, run, isBent))
+    starts.insert (starts.end (), {mesh.from (e), mesh.to (e)});
+  sortUnique (starts);
   if (starts.empty ())
     return found;
   std::vector<std::uint8_t> is_boundary (positions.size (), 0);
@@ -311,7 +282,10 @@ findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
     std::vector<Index> loop = finder.loopNear (p);
     finder.forEachWithin (1, [&] (Index q) { is_searched[q] = 1; });
     if (!loop.empty ()) {
-      putInOrder (loop);
+      // From the smallest point, towards the smaller one beside it.
+      std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
+      if (loop.back () < loop[1])
+        std::reverse (loop.begin () + 1, loop.end ());
       found.push_back (std::move (loop));
     }
   }

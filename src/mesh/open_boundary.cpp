@@ -49,6 +49,35 @@ offerAround (MeshEdge fold, const TriangleMesh& mesh, BoundaryPeel& peel, Offer&
   }
 }
 
+using Positions = std::vector<Eigen::Vector3d>;
+
+// Cosine of the angle opposite to an edge; 1 if points coincide.
+double
+cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
+{
+  const Eigen::Vector3d& corner = positions[mesh.corner (e)];
+  const Eigen::Vector3d a = positions[mesh.from (e)] - corner;
+  const Eigen::Vector3d b = positions[mesh.to (e)] - corner;
+  const double product = a.norm () * b.norm ();
+  return product > 0.0 ? a.dot (b) / product : 1.0;
+}
+
+// Cosines of the corners of some triangles, spread evenly over the mesh.
+std::vector<double>
+sampleCorners (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
+{
+  constexpr std::size_t SAMPLE = 20'000; // triangles
+  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
+  std::vector<double> cosines;
+  ProgressLoop progress (run); // each triangle may load memory pages
+  for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
+    progress.next ();
+    for (std::uint8_t side = 0; side < 3; ++side)
+      cosines.push_back (cosineAt ({static_cast<Index> (t), side}, mesh, positions));
+  }
+  return cosines;
+}
+
 } // namespace
 
 std::size_t
@@ -85,38 +114,6 @@ openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
     removeTriangles (mesh, std::move (peel).takenTriangles (), run);
   return count;
 }
-
-namespace {
-using Positions = std::vector<Eigen::Vector3d>;
-
-// Cosine of the angle opposite to an edge; 1 if points coincide.
-double
-cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
-{
-  const Eigen::Vector3d& corner = positions[mesh.corner (e)];
-  const Eigen::Vector3d a = positions[mesh.from (e)] - corner;
-  const Eigen::Vector3d b = positions[mesh.to (e)] - corner;
-  const double product = a.norm () * b.norm ();
-  return product > 0.0 ? a.dot (b) / product : 1.0;
-}
-
-// Cosines of the corners of some triangles, spread evenly over the mesh.
-std::vector<double>
-sampleCorners (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
-{
-  constexpr std::size_t SAMPLE = 20'000; // triangles
-  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
-  std::vector<double> cosines;
-  ProgressLoop progress (run); // each triangle may load memory pages
-  for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
-    progress.next ();
-    for (std::uint8_t side = 0; side < 3; ++side)
-      cosines.push_back (cosineAt ({static_cast<Index> (t), side}, mesh, positions));
-  }
-  return cosines;
-}
-
-} // namespace
 
 std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,

@@ -6,7 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/piece_in_place.h"
-#include "mesh/place_of_mesh.h"
 #include "mesh/zone_splicing.h"
 
 #include <algorithm>

@@ -162,9 +162,9 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
       triangles.size (), [&] (std::size_t i) { return boxOf (triangles[order[i]], positions); },
       run);
   constexpr std::size_t LEAVES_AT_ONCE = 8; // consecutive leaves, with mostly the same near boxes
-  std::vector<CrossingPairs> found ((tree.leaves () + RANGE_LENGTH - 1) / RANGE_LENGTH);
+  RangeLists<CrossingPair> found (tree.leaves ());
+  RangeLists<Index> untested (tree.leaves ());
   parallelRanges (run, tree.leaves (), [&] (std::size_t first, std::size_t last) {
-    CrossingPairs& pairs = found[first / RANGE_LENGTH];
     const std::size_t most = limits.work * (last - first) * BoxTree::LEAF_SIZE;
     std::size_t work = 0;
     for (std::size_t begin = first; begin < last; begin += LEAVES_AT_ONCE) {
@@ -176,20 +176,16 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
             return;
           std::size_t exact_tests = 0;
           if (doCross (triangles[t], triangles[u], positions, &exact_tests))
-            pairs.push_back ({t, u});
+            found.of (first).push_back ({t, u});
           work += limits.test + exact_tests * limits.exact_test;
         });
       if (work >= most)
         for (std::size_t i = begin * BoxTree::LEAF_SIZE;
              i < std::min (triangles.size (), end * BoxTree::LEAF_SIZE); ++i)
-          pairs.untested.push_back (order[i]);
+          untested.of (first).push_back (order[i]);
     }
   });
-  CrossingPairs all;
-  for (const CrossingPairs& pairs : found) {
-    all.insert (all.end (), pairs.begin (), pairs.end ());
-    all.untested.insert (all.untested.end (), pairs.untested.begin (), pairs.untested.end ());
-  }
+  CrossingPairs all{found.join (), untested.join ()};
   std::sort (all.begin (), all.end ());
   std::sort (all.untested.begin (), all.untested.end ());
   return all;

@@ -162,11 +162,6 @@ private:
     flawsAt (p, &moves);
     for (const Index t : all_.around.row (p))
       moves.push_back ({t});
-    return makeBest (moves);
-  }
-
-  bool makeBest (const std::vector<std::vector<Index>>& moves)
-  {
     const std::vector<Index>* best = nullptr;
     long best_gain = 0;
     double best_cost = 0.0;

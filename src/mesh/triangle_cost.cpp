@@ -8,23 +8,13 @@
 #include <cmath>
 
 namespace pcl::floater {
-namespace {
-constexpr double LEAST_AREA = 1e-9;  // doubled, over the sum of the squared edges: keeps the costs
-                                     // of needles finite and comparable
-constexpr double LARGEST_AREA = 1e9; // doubled, over the squared spacing, which may be 0: keeps the
-                                     // costs of large triangles finite
-
-double
-shapeCost (double cotangents, double needle_cost)
-{
-  return cotangents <= needle_cost ? cotangents
-                                   : needle_cost * (1.0 + std::log (cotangents / needle_cost));
-}
-} // namespace
-
 TriangleCost::Value
 TriangleCost::value (Index a, Index b, Index c) const
 {
+  constexpr double LEAST_AREA = 1e-9; // doubled, over the sum of the squared edges: keeps the costs
+                                      // of needles finite and comparable
+  constexpr double LARGEST_AREA = 1e9; // doubled, over the squared spacing, which may be 0: keeps
+                                       // the costs of large triangles finite
   // Starts with the smallest point, so that rounding does not depend on the order of the corners:
   // otherwise flips could cycle.
   if (b < a && b < c)
@@ -45,7 +35,10 @@ TriangleCost::value (Index a, Index b, Index c) const
   const double turned =
       limits_.turned_cost *
       std::max (0.0, limits_.turned_cosine - agreement (a, b, c, area_vector, double_area));
-  Value result{area_vector, shapeCost (cotangents, limits_.needle_cost) + turned};
+  const double needle = limits_.needle_cost,
+               shape = cotangents <= needle ? cotangents
+                                            : needle * (1.0 + std::log (cotangents / needle));
+  Value result{area_vector, shape + turned};
   if (double_area > 0.0)
     result.unit_normal /= double_area;
   if (spacing_ != nullptr) {

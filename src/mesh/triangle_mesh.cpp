@@ -13,15 +13,6 @@
 #include <utility>
 
 namespace pcl::floater {
-namespace {
-bool
-isCorner (const Triangle& triangle, Index p)
-{
-  return triangle[0] == p || triangle[1] == p || triangle[2] == p;
-}
-
-} // namespace
-
 void
 TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 {
@@ -77,35 +68,6 @@ TriangleMesh::hasEdge (Index p, Index q) const
     around_q.advance ();
   }
   return false;
-}
-
-void
-TriangleMesh::note (Index t)
-{
-  if (is_recording_)
-    changes_.push_back ({t, triangles[t], neighbors[t]});
-}
-
-void
-TriangleMesh::set (Index t, const Triangle& corners)
-{
-  note (t);
-  triangles[t] = corners;
-}
-
-void
-TriangleMesh::setTriangleOf (Index p, Index t)
-{
-  if (is_recording_)
-    changes_.push_back ({NONE, {}, {p, triangle_of[p], NONE}});
-  triangle_of[p] = t;
-}
-
-void
-TriangleMesh::recordChanges (bool is_on)
-{
-  changes_.clear ();
-  is_recording_ = is_on;
 }
 
 void

@@ -23,6 +23,26 @@ areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
+inline Eigen::Vector3d
+middleOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+{
+  return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
+}
+
+inline bool
+isCorner (const Triangle& t, Index p)
+{
+  return t[0] == p || t[1] == p || t[2] == p;
+}
+
+/// Whether a condition holds for a corner of a triangle.
+template <typename IsMet>
+bool
+anyCorner (const Triangle& t, IsMet&& is_met)
+{
+  return is_met (t[0]) || is_met (t[1]) || is_met (t[2]);
+}
+
 /// Oriented manifold with boundary. The corners of a triangle are anti-clockwise seen from the
 /// front; its neighbour i is across the edge opposite to corner i, NONE at the boundary. The
 /// triangles around a vertex are one fan. Changes by flip, split and replaceFan can be undone.
@@ -93,7 +113,11 @@ struct TriangleMesh
 
   /// Forgets the recorded changes, and records those from here on.
   /// \param is_on false: records no longer
-  void recordChanges (bool is_on = true);
+  void recordChanges (bool is_on = true)
+  {
+    changes_.clear ();
+    is_recording_ = is_on;
+  }
 
   /// The current state, for undo (). Requires recording.
   std::size_t mark () const { return changes_.size (); }
@@ -123,9 +147,25 @@ private:
   };
 
   void link (Index t, std::uint8_t side, MeshEdge other);
-  void set (Index t, const Triangle& corners);
-  void setTriangleOf (Index p, Index t);
-  void note (Index t);
+
+  void set (Index t, const Triangle& corners)
+  {
+    note (t);
+    triangles[t] = corners;
+  }
+
+  void setTriangleOf (Index p, Index t)
+  {
+    if (is_recording_)
+      changes_.push_back ({NONE, {}, {p, triangle_of[p], NONE}});
+    triangle_of[p] = t;
+  }
+
+  void note (Index t)
+  {
+    if (is_recording_)
+      changes_.push_back ({t, triangles[t], neighbors[t]});
+  }
 
   std::vector<Entry> changes_;
   bool is_recording_ = false;

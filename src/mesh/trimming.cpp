@@ -11,122 +11,44 @@
 
 namespace pcl::floater {
 namespace {
-class TriangleRemoval
-{
-public:
-  TriangleRemoval (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const RunContext& run)
-      : mesh_ (mesh), run_ (run), is_removed_ (std::move (is_removed))
-  {
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      if (is_removed_[t] != 0)
-        changed_.insert (changed_.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
-  }
-
-  void run ()
-  {
-    if (changed_.empty ())
-      return; // no triangle is removed, and no array of triangles is needed
-    ProgressLoop progress (run_);
-    while (!changed_.empty ()) {
-      progress.next ();
-      const Index p = changed_.back ();
-      changed_.pop_back ();
-      keepLargestFan (p);
-    }
-    Index kept = 0;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      if (is_removed_[t] == 0)
-        mesh_.triangles[kept++] = mesh_.triangles[t];
-    mesh_.triangles.resize (kept);
-    mesh_.connect (mesh_.triangle_of.size (), run_);
-  }
-
-private:
-  void takeOut (Index t)
-  {
-    if (is_removed_[t] != 0)
-      return;
-    is_removed_[t] = 1;
-    changed_.insert (changed_.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
-  }
-
-  // The triangles around p are one fan of the original mesh; the remaining ones form runs.
-  void keepLargestFan (Index p)
-  {
-    const bool is_closed = mesh_.fan (p, fan_, ring_);
-    const auto isKept = [this] (Index t) { return is_removed_[t] == 0; };
-    // In a closed fan, a run may go on from the last triangle to the first: begin at a gap.
-    if (is_closed)
-      std::rotate (fan_.begin (), std::find_if_not (fan_.begin (), fan_.end (), isKept),
-                   fan_.end ());
-    std::size_t largest = 0, length = 0, end = 0;
-    for (std::size_t i = 0; i < fan_.size (); ++i) {
-      length = isKept (fan_[i]) ? length + 1 : 0;
-      if (length > largest) {
-        largest = length;
-        end = i + 1;
-      }
-    }
-    for (std::size_t i = 0; i < fan_.size (); ++i)
-      if (i + largest < end || i >= end)
-        takeOut (fan_[i]);
-  }
-
-  TriangleMesh& mesh_;
-  RunContext run_;
-  std::vector<std::uint8_t> is_removed_; // of each triangle
-  std::vector<Index> changed_;           // points that lost a triangle, possibly repeated
-  std::vector<Index> fan_, ring_;        // of the current point
-};
-
-} // namespace
-
+// Sets `fan` to the triangles around p, but for the largest run of those that remain.
 void
-removeTriangles (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const RunContext& run)
+findBesideLargestRun (const TriangleMesh& mesh, Index p,
+                      const std::vector<std::uint8_t>& is_removed, std::vector<Index>& fan,
+                      std::vector<Index>& ring)
 {
-  TriangleRemoval (mesh, std::move (is_removed), run).run ();
-}
-
-std::size_t
-removeSmallComponents (TriangleMesh& mesh, std::size_t fewest_points, const RunContext& run)
-{
-  const MeshComponents components = findComponents (mesh, run);
-  const std::vector<std::size_t> points = countPoints (mesh, components);
-  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    is_removed[t] = points[components.of_triangle[t]] < fewest_points ? 1 : 0;
-  removeTriangles (mesh, std::move (is_removed), run);
-  return static_cast<std::size_t> (
-      std::count_if (points.begin (), points.end (),
-                     [fewest_points] (std::size_t count) { return count < fewest_points; }));
-}
-
-namespace {
-// Tolerance for edges as long as the limit; positions are in a box of diagonal 1.
-constexpr double LENGTH_ROUNDING = 1e-15;
-
-bool
-isTooLong (Index p, Index q, const Points& points, const std::vector<float>& spacing,
-           const TrimmingOptions& options)
-{
-  const double length = (points.positions[q] - points.positions[p]).norm () - LENGTH_ROUNDING;
-  const double unit = 0.5 * (static_cast<double> (spacing[p]) + spacing[q]);
-  return (options.maximum_edge_length > 0.0 &&
-          length > options.maximum_edge_length / points.scale) ||
-         (options.maximum_edge_ratio > 0.0 && length > options.maximum_edge_ratio * unit);
+  const auto isKept = [&is_removed] (Index t) { return is_removed[t] == 0; };
+  // In a closed fan, a run may go on from the last triangle to the first: begin at a gap.
+  if (mesh.fan (p, fan, ring))
+    std::rotate (fan.begin (), std::find_if_not (fan.begin (), fan.end (), isKept), fan.end ());
+  std::ptrdiff_t largest = 0, length = 0, end = 0;
+  for (std::size_t i = 0; i < fan.size (); ++i) {
+    length = isKept (fan[i]) ? length + 1 : 0;
+    if (length > largest) {
+      largest = length;
+      end = static_cast<std::ptrdiff_t> (i + 1);
+    }
+  }
+  fan.erase (fan.begin () + (end - largest), fan.begin () + end);
 }
 
 void
 cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
               const TrimmingOptions& options, const RunContext& run)
 {
+  const auto isTooLong = [&] (Index p, Index q) {
+    // Tolerance for edges as long as the limit; positions are in a box of diagonal 1.
+    constexpr double LENGTH_ROUNDING = 1e-15;
+    const double length = (points.positions[q] - points.positions[p]).norm () - LENGTH_ROUNDING;
+    const double unit = 0.5 * (static_cast<double> (spacing[p]) + spacing[q]);
+    return (options.maximum_edge_length > 0.0 &&
+            length > options.maximum_edge_length / points.scale) ||
+           (options.maximum_edge_ratio > 0.0 && length > options.maximum_edge_ratio * unit);
+  };
   std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
-  parallelRanges (run, is_removed.size (), [&] (std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (isTooLong (mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3], points, spacing,
-                       options))
-          is_removed[t] = 1;
+  parallelPoints (run, is_removed.size (), [&] (Index t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    is_removed[t] = isTooLong (a, b) || isTooLong (b, c) || isTooLong (c, a) ? 1 : 0;
   });
   removeTriangles (mesh, std::move (is_removed), run);
 }
@@ -172,6 +94,50 @@ cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
 }
 
 } // namespace
+
+void
+removeTriangles (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const RunContext& run)
+{
+  std::vector<Index> changed; // points that lost a triangle, possibly repeated
+  const auto addCorners = [&] (Index t) {
+    changed.insert (changed.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+  };
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    if (is_removed[t] != 0)
+      addCorners (t);
+  if (changed.empty ())
+    return; // no array of triangles is needed
+  ProgressLoop progress (run);
+  std::vector<Index> fan, ring;
+  while (!changed.empty ()) {
+    progress.next ();
+    findBesideLargestRun (mesh, changed.back (), is_removed, fan, ring);
+    changed.pop_back ();
+    for (const Index t : fan)
+      if (std::exchange (is_removed[t], std::uint8_t{1}) == 0)
+        addCorners (t);
+  }
+  Index kept = 0;
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    if (is_removed[t] == 0)
+      mesh.triangles[kept++] = mesh.triangles[t];
+  mesh.triangles.resize (kept);
+  mesh.connect (mesh.triangle_of.size (), run);
+}
+
+std::size_t
+removeSmallComponents (TriangleMesh& mesh, std::size_t fewest_points, const RunContext& run)
+{
+  const MeshComponents components = findComponents (mesh, run);
+  const std::vector<std::size_t> points = countPoints (mesh, components);
+  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    is_removed[t] = points[components.of_triangle[t]] < fewest_points ? 1 : 0;
+  removeTriangles (mesh, std::move (is_removed), run);
+  return static_cast<std::size_t> (
+      std::count_if (points.begin (), points.end (),
+                     [fewest_points] (std::size_t count) { return count < fewest_points; }));
+}
 
 bool
 asksForTrimming (const TrimmingOptions& options)

@@ -5,7 +5,7 @@
 #include "core/geometry.h"
 #include "core/tetrahedra.h"
 #include "mesh/side_mending.h"
-#include "mesh/sides_of_space.h"
+#include "mesh/triangle_mesh.h"
 
 #include <Eigen/Geometry>
 
@@ -13,10 +13,116 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace pcl::floater {
 namespace {
+// Sets of tetrahedra on the same or on opposite sides: disjoint sets with parity, whose last step
+// can be undone. O(log n) for a step, plus the free points of the smaller set.
+class SidesOfSpace
+{
+public:
+  struct Side
+  {
+    Index root;
+    bool is_other; // opposite to the root
+
+    bool operator== (const Side& s) const { return root == s.root && is_other == s.is_other; }
+  };
+
+  SidesOfSpace (const Tetrahedra& tetrahedra, const std::vector<std::uint8_t>& is_free)
+      : tetrahedra_ (tetrahedra), parent_ (tetrahedra.size ()), is_other_ (tetrahedra.size (), 0),
+        free_points_ (tetrahedra.size ())
+  {
+    std::iota (parent_.begin (), parent_.end (), Index{0});
+    for (Index t = 0; t < tetrahedra.size (); ++t)
+      for (const Index p : tetrahedra.corners[t])
+        if (p != NONE && is_free[p] != 0)
+          free_points_[t].push_back (p);
+  }
+
+  Side of (Index t) const
+  {
+    bool is_other = false;
+    for (; parent_[t] != t; t = parent_[t])
+      is_other = is_other != (is_other_[t] != 0);
+    return {t, is_other};
+  }
+
+  // Puts two tetrahedra on the same side or on opposite ones.
+  // \return false if a free point would have one side only, or two tetrahedra contradicting sides;
+  //     nothing has changed then
+  bool put (Index a, Index b, bool opposite)
+  {
+    steps_.clear ();
+    to_check_.clear ();
+    bool is_possible = link (a, b, opposite);
+    for (std::size_t i = 0; is_possible && i < to_check_.size (); ++i)
+      is_possible = hasTwoSides (to_check_[i]);
+    for (; !is_possible && !steps_.empty (); steps_.pop_back ()) {
+      const Step& step = steps_.back ();
+      parent_[step.small] = step.small;
+      is_other_[step.small] = 0;
+      free_points_[step.large].resize (step.points_before);
+    }
+    return is_possible;
+  }
+
+private:
+  struct Step
+  {
+    Index small, large; // set that was joined to another one
+    std::size_t points_before;
+  };
+
+  bool link (Index a, Index b, bool opposite)
+  {
+    const Side of_a = of (a), of_b = of (b);
+    const bool flips = (of_a.is_other != of_b.is_other) != opposite;
+    if (of_a.root == of_b.root)
+      return !flips;
+    Index small = of_a.root, large = of_b.root;
+    if (free_points_[small].size () > free_points_[large].size ())
+      std::swap (small, large);
+    std::vector<Index>& points = free_points_[large];
+    steps_.push_back ({small, large, points.size ()});
+    parent_[small] = large;
+    is_other_[small] = flips ? 1 : 0;
+    to_check_.insert (to_check_.end (), free_points_[small].begin (), free_points_[small].end ());
+    points.insert (points.end (), free_points_[small].begin (), free_points_[small].end ());
+    return true;
+  }
+
+  // False if all tetrahedra around a point are on one side. If there are two sets left, they are
+  // opposite.
+  bool hasTwoSides (Index p)
+  {
+    const Row around = tetrahedra_.around.row (p);
+    const Side first = of (around[0]);
+    Side second = first;
+    for (const Index t : around) {
+      const Side side = of (t);
+      if (side == first || side == second)
+        continue;
+      if (!(second == first))
+        return true;
+      second = side;
+    }
+    if (second == first)
+      return false;
+    return first.root == second.root ||
+           link (first.root, second.root, first.is_other == second.is_other);
+  }
+
+  const Tetrahedra& tetrahedra_;
+  std::vector<Index> parent_;
+  std::vector<std::uint8_t> is_other_;          // opposite to the parent
+  std::vector<std::vector<Index>> free_points_; // of each set, possibly repeated
+  std::vector<Step> steps_;
+  std::vector<Index> to_check_;
+};
+
 // Cosine and angle of the direction in which the circle of a facet sees the centre of a ball
 // through it and another point; above its plane if positive.
 struct SeenCentre
@@ -65,17 +171,13 @@ private:
     bool is_sure;     // has no free corner, and is not at a boundary
   };
 
-  bool has (Index t, const std::vector<std::uint8_t>& mark) const
-  {
-    const auto& c = all_.corners[t];
-    return std::any_of (c.begin (), c.end (), [&] (Index p) { return p != NONE && mark[p] != 0; });
-  }
-
   void findNear ()
   {
     is_near_.resize (all_.size ());
     for (Index t = 0; t < all_.size (); ++t)
-      is_near_[t] = has (t, place_.is_free) || has (t, place_.is_rim) ? 1 : 0;
+      for (const Index p : all_.corners[t])
+        if (p != NONE)
+          is_near_[t] = is_near_[t] | place_.is_free[p] | place_.is_rim[p];
   }
 
   SeenCentre seenCentre (Index p, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal,
@@ -95,8 +197,7 @@ private:
       for (unsigned k = 0; k < 4; ++k) {
         const Index other = all_.neighbors[t][k];
         const Triangle facet = all_.facet (t, k);
-        if (other < t || facet[0] == NONE || facet[1] == NONE || facet[2] == NONE ||
-            is_near_[t] == 0 || is_near_[other] == 0)
+        if (other < t || isCorner (facet, NONE) || is_near_[t] == 0 || is_near_[other] == 0)
           continue;
         const unsigned l = sideTo (other, t);
         const Eigen::Vector3d& a = place_.positions[facet[0]];
@@ -117,9 +218,8 @@ private:
         if (!std::isfinite (overlap)) // the facet has hardly any area
           overlap = 0.0;
         overlap_[t][k] = overlap_[other][l] = overlap;
-        const bool is_sure = std::none_of (facet.begin (), facet.end (), [&] (Index p) {
-          return place_.is_free[p] != 0 || place_.is_boundary[p] != 0;
-        });
+        const bool is_sure = !anyCorner (
+            facet, [&] (Index p) { return place_.is_free[p] != 0 || place_.is_boundary[p] != 0; });
         facets_.push_back ({overlap, t, other, is_sure});
       }
     std::sort (facets_.begin (), facets_.end (), [] (const Facet& f, const Facet& g) {
@@ -143,14 +243,11 @@ private:
   {
     for (const Index t : all_.around.row (triangle[0]))
       for (unsigned k = 0; k < 4; ++k) {
-        const Triangle facet = all_.facet (t, k);
-        const auto at = std::find (facet.begin (), facet.end (), triangle[0]);
-        if (at == facet.end ())
-          continue;
-        const auto i = static_cast<unsigned> (at - facet.begin ());
-        const Index next = facet[(i + 1) % 3], last = facet[(i + 2) % 3];
+        Triangle facet = all_.facet (t, k);
+        std::rotate (facet.begin (), std::find (facet.begin (), facet.end (), triangle[0]),
+                     facet.end ());
         // A facet is anti-clockwise seen from outside the tetrahedron, which is then behind it.
-        if (next == triangle[1] && last == triangle[2])
+        if (facet == triangle)
           return {all_.neighbors[t][k], t};
       }
     return {NONE, NONE};
@@ -246,11 +343,9 @@ private:
     for (Index t = 0; t < all_.size (); ++t)
       for (unsigned k = 0; k < 4; ++k) {
         const Triangle facet = all_.facet (t, k);
-        if (is_behind_[t] == 0 || is_behind_[all_.neighbors[t][k]] != 0 || facet[0] == NONE ||
-            facet[1] == NONE || facet[2] == NONE)
-          continue;
-        if (place_.is_free[facet[0]] != 0 || place_.is_free[facet[1]] != 0 ||
-            place_.is_free[facet[2]] != 0)
+        if (is_behind_[t] != 0 && is_behind_[all_.neighbors[t][k]] == 0 &&
+            !isCorner (facet, NONE) &&
+            anyCorner (facet, [&] (Index p) { return place_.is_free[p] != 0; }))
           made.triangles.push_back (facet);
       }
     made.is_turned = std::move (is_turned_);

@@ -16,7 +16,14 @@ VertexMover::fillHoleOf (Index v)
   filled_ = filling_.fill (
       polygon_, [this] (Index p, Index q, Index r) { return cost_ (p, q, r).cost; },
       [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); });
-  return !filled_.empty () && (filled_.size () > 1 || !isTriangle (filled_.front ()));
+  if (filled_.size () != 1)
+    return !filled_.empty ();
+  // The mesh must not have the reversed triangle: the fourth one of a tetrahedron.
+  const Triangle& corners = filled_.front ();
+  mesh_.fan (corners[0], fan_);
+  return std::none_of (fan_.begin (), fan_.end (), [&] (Index t) {
+    return isCorner (mesh_.triangles[t], corners[1]) && isCorner (mesh_.triangles[t], corners[2]);
+  });
 }
 
 // Puts the filling in the place of a vertex.
@@ -82,19 +89,6 @@ VertexMover::settleAt (Index v, Index t)
         flipper_.push ({u, side});
     }
   flipper_.run ();
-}
-
-// True if the mesh has the reversed triangle: the fourth triangle of a tetrahedron.
-bool
-VertexMover::isTriangle (const Triangle& corners)
-{
-  std::vector<Index> around;
-  mesh_.fan (corners[0], around);
-  return std::any_of (around.begin (), around.end (), [&] (Index t) {
-    const Triangle& c = mesh_.triangles[t];
-    return std::all_of (corners.begin (), corners.end (),
-                        [&c] (Index p) { return std::find (c.begin (), c.end (), p) != c.end (); });
-  });
 }
 
 // The triangles with the cheapest splits at the vertex, at most `most`.

@@ -60,7 +60,6 @@ private:
   bool fillHoleOf (Index v);
   void takeOut (Index v);
   void settleAt (Index v, Index t);
-  bool isTriangle (const Triangle& corners);
   const std::vector<Place>& findPlaces (Index v, std::size_t most);
   void offer (Index t, Index v, std::size_t most);
 

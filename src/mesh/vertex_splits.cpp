@@ -62,8 +62,32 @@ private:
   }
   void setFan (Index v) { fan_.is_closed = mesh_.fan (v, fan_.triangles, fan_.ring); }
   Cut bestCut (Index v, Index p);
-  Cut bestNear (Index p);
-  Index newTriangle ();
+
+  Cut bestNear (Index p)
+  {
+    tree_.nearestIf (
+        positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits_.near,
+        [this] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
+          return mesh_.triangle_of[neighbor.point] != NONE;
+        },
+        found_);
+    Cut best;
+    for (const Neighbor& neighbor : found_) {
+      Cut cut = bestCut (neighbor.point, p);
+      cut.cost += limits_.far * std::sqrt (neighbor.sqr_distance);
+      if (cut.cost < best.cost)
+        best = cut;
+    }
+    return best;
+  }
+
+  Index newTriangle ()
+  {
+    mesh_.triangles.emplace_back ();
+    mesh_.neighbors.push_back ({NONE, NONE, NONE});
+    return static_cast<Index> (mesh_.triangles.size () - 1);
+  }
+
   void split (const Cut& cut, Index p);
 
   TriangleMesh& mesh_;
@@ -159,7 +183,6 @@ VertexSplitter::bestCut (Index v, Index p)
     spokes_p_[k + 1] = spokes_p_[k] + place.spoke_p;
   }
   Cut best;
-  best.vertex = NONE;
   const auto consider = [&] (std::size_t from, std::size_t to, bool has_begin, bool has_end) {
     double cost = rims_[to] - rims_[from];
     if (to > from + 1)
@@ -192,33 +215,6 @@ VertexSplitter::bestCut (Index v, Index p)
   return best;
 }
 
-Cut
-VertexSplitter::bestNear (Index p)
-{
-  tree_.nearestIf (
-      positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits_.near,
-      [this] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
-        return mesh_.triangle_of[neighbor.point] != NONE;
-      },
-      found_);
-  Cut best;
-  for (const Neighbor& neighbor : found_) {
-    Cut cut = bestCut (neighbor.point, p);
-    cut.cost += limits_.far * std::sqrt (neighbor.sqr_distance);
-    if (cut.cost < best.cost)
-      best = cut;
-  }
-  return best;
-}
-
-Index
-VertexSplitter::newTriangle ()
-{
-  mesh_.triangles.emplace_back ();
-  mesh_.neighbors.push_back ({NONE, NONE, NONE});
-  return static_cast<Index> (mesh_.triangles.size () - 1);
-}
-
 // Gives p, which has no triangle, the part of a fan, and closes the cuts by triangles with both
 // points.
 void
@@ -228,11 +224,10 @@ VertexSplitter::split (const Cut& cut, Index p)
   setFan (v);
   const std::size_t m = fan_.size (), from = cut.from, to = cut.to;
   // Triangles beside the ends of the part, outside and inside; NONE at the boundary.
-  const auto outside = [&] (std::size_t k) { return fan_.triangle (k); };
-  const Index before = from > 0 || fan_.is_closed ? outside (from + m - 1) : NONE;
-  const Index after = to < m || fan_.is_closed ? outside (to) : NONE;
-  const Index first = to > from ? outside (from) : NONE;
-  const Index last = to > from ? outside (to + m - 1) : NONE;
+  const Index before = from > 0 || fan_.is_closed ? fan_.triangle (from + m - 1) : NONE;
+  const Index after = to < m || fan_.is_closed ? fan_.triangle (to) : NONE;
+  const Index first = to > from ? fan_.triangle (from) : NONE;
+  const Index last = to > from ? fan_.triangle (to + m - 1) : NONE;
   const Index from_point = fan_.at (from), to_point = fan_.at (to);
   for (std::size_t k = from; k < to; ++k) {
     Triangle& corners = mesh_.triangles[fan_.triangle (k)];

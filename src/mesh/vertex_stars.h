@@ -17,14 +17,11 @@ namespace pcl::floater {
 inline std::vector<Index>
 orderByPoints (const std::vector<Triangle>& triangles, std::size_t points)
 {
-  return makeCsrLists (points,
-                       [&] (const auto& emit) {
-                         for (Index t = 0; t < triangles.size (); ++t) {
-                           const Triangle& corners = triangles[t];
-                           emit (*std::min_element (corners.begin (), corners.end ()), t);
-                         }
-                       })
-      .ids;
+  CsrLists lists = makeCsrLists (points, [&] (const auto& emit) {
+    for (Index t = 0; t < triangles.size (); ++t)
+      emit (*std::min_element (triangles[t].begin (), triangles[t].end ()), t);
+  });
+  return std::move (lists.ids);
 }
 
 /// Whether the corners are three points below `points`.

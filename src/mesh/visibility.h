@@ -5,6 +5,7 @@
 
 #include "core/geometry.h"
 #include "mesh/box_tree.h"
+#include "mesh/self_intersections.h"
 #include "mesh/vertex_stars.h"
 
 #include <cmath>
@@ -23,13 +24,7 @@ public:
         order_ (orderByPoints (triangles, positions.size ())),
         tree_ (
             order_.size (),
-            [this] (std::size_t i) {
-              Eigen::AlignedBox3d box;
-              for (const Index p : triangles_[order_[i]])
-                box.extend (positions_[p]);
-              return box;
-            },
-            run)
+            [this] (std::size_t i) { return boxOf (triangles_[order_[i]], positions_); }, run)
   {
   }
 

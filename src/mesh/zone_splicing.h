@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Puts zones that were made anew into a mesh.
+// Zones of a mesh as places whose triangles are made anew, and how they are put back.
 #pragma once
 
-#include "mesh/triangle_mesh.h"
+#include "mesh/disturbed_zones.h"
+#include "mesh/two_sides.h"
 
 #include <optional>
 #include <vector>
@@ -29,5 +30,22 @@ struct NewZone
 /// \param[in,out] made loses zones that overlap an earlier one or contradict the sides of others
 std::vector<Triangle>
 spliceZones (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made);
+
+/// A place, and what it is of the mesh.
+struct PlaceOfMesh
+{
+  Place place;
+  std::vector<Index> points; ///< of each point of the place: which it is; ascending
+  std::vector<Index> frame;  ///< of each triangle of the frame: which it is
+  std::vector<Triangle> old; ///< triangles that go, by points of the place
+};
+
+/// The place of some free points, with two rings around: points that share an edge, and the nearest
+/// ones. The free points need not be a zone, and may be more than one. O(points in the place).
+/// \param neighbors of each point of the mesh, nearest first
+/// \param zones     all zones of the mesh: triangles at their free points are not in the frame
+PlaceOfMesh
+placeOf (Row free, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+         const CsrLists& neighbors, const DisturbedZones& zones);
 
 } // namespace pcl::floater

@@ -5,7 +5,6 @@
 #include "consensus/consensus.h"
 
 #include "consensus/consensus_method.h"
-#include "consensus/orientation.h"
 #include "mesh_oracle.h"
 #include "samples.h"
 

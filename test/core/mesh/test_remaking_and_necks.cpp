@@ -6,7 +6,6 @@
 
 #include "mesh/known_meshes.h"
 #include "mesh/neck_cutting.h"
-#include "mesh/neck_loops.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/two_sides.h"
 #include "mesh_oracle.h"
