@@ -243,44 +243,6 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   return boundary;
 }
 
-} // namespace
-
-Problem
-reconstructDisc (const Points& points, LocalGeometry geometry, const Request& request,
-                 Result& result)
-{
-  const Options& options = request.options;
-  result.report.topology = Topology::DISC;
-  result.report.topology_reason = options.disc.as_published ? "the method of TW 385 is asked for"
-                                  : options.topology == Topology::DISC
-                                      ? "asked for"
-                                      : "its boundary loop is given";
-  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
-                        {options, starSettings (request), request.limits.disc,
-                         request.limits.surface.finish, facingHints (points, request)},
-                        request.run);
-  reportDisc (points, disc, result.report);
-  if (disc.problem)
-    return disc.problem;
-  return useMesh ({std::move (disc.mesh), std::move (disc.finish)}, points, std::move (geometry),
-                  request, result);
-}
-
-Problem
-reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
-                    Result& result)
-{
-  const Options& options = request.options;
-  const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
-                                 request.limits.surface, facingHints (points, request)};
-  Surface surface = makeSurface (points, geometry, settings, request.run);
-  result.report.topology = Topology::SURFACE;
-  reportLoops (points, surface, result.report);
-  return useMesh ({std::move (surface.mesh), std::move (surface.finish)}, points,
-                  std::move (geometry), request, result);
-}
-
-namespace {
 // The given viewpoint, or the origin of the sensor if the points are evenly spaced from there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const Request& request)
@@ -346,6 +308,41 @@ countContradictions (const Points& points, const Viewpoint& viewpoint, const Vie
 }
 
 } // namespace
+
+Problem
+reconstructDisc (const Points& points, LocalGeometry geometry, const Request& request,
+                 Result& result)
+{
+  const Options& options = request.options;
+  result.report.topology = Topology::DISC;
+  result.report.topology_reason = options.disc.as_published ? "the method of TW 385 is asked for"
+                                  : options.topology == Topology::DISC
+                                      ? "asked for"
+                                      : "its boundary loop is given";
+  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
+                        {options, starSettings (request), request.limits.disc,
+                         request.limits.surface.finish, facingHints (points, request)},
+                        request.run);
+  reportDisc (points, disc, result.report);
+  if (disc.problem)
+    return disc.problem;
+  return useMesh ({std::move (disc.mesh), std::move (disc.finish)}, points, std::move (geometry),
+                  request, result);
+}
+
+Problem
+reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
+                    Result& result)
+{
+  const Options& options = request.options;
+  const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
+                                 request.limits.surface, facingHints (points, request)};
+  Surface surface = makeSurface (points, geometry, settings, request.run);
+  result.report.topology = Topology::SURFACE;
+  reportLoops (points, surface, result.report);
+  return useMesh ({std::move (surface.mesh), std::move (surface.finish)}, points,
+                  std::move (geometry), request, result);
+}
 
 std::optional<Problem>
 reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,

@@ -221,7 +221,7 @@ reconstruct (Input input, const Options& options)
 }
 
 Result
-reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options)
+reconstruct (Positions positions, const Options& options)
 {
   Problem problem;
   try {

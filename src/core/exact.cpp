@@ -3,11 +3,16 @@
 #include "core/exact.h"
 
 #include <CGAL/Convex_hull_traits_adapter_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/convex_hull_2.h>
 #include <CGAL/intersections.h>
 #include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <iterator>
@@ -16,6 +21,13 @@
 namespace pcl::floater {
 namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SpaceVertex = CGAL::Triangulation_vertex_base_with_info_3<Index, Kernel>;
+using SpaceCell =
+    CGAL::Triangulation_cell_base_with_info_3<Index, Kernel,
+                                              CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using SpaceDelaunay =
+    CGAL::Delaunay_triangulation_3<Kernel,
+                                   CGAL::Triangulation_data_structure_3<SpaceVertex, SpaceCell>>;
 
 Kernel::Point_2
 exactly (const Eigen::Vector2d& p)
@@ -35,12 +47,13 @@ exactly (const std::array<Eigen::Vector3d, 3>& triangle)
   return {exactly (triangle[0]), exactly (triangle[1]), exactly (triangle[2])};
 }
 
-std::vector<Kernel::Point_2>
-exactly (const std::vector<Eigen::Vector2d>& points)
+template <typename Vector>
+auto
+exactly (const std::vector<Vector>& points)
 {
-  std::vector<Kernel::Point_2> exact;
+  std::vector<decltype (exactly (Vector ()))> exact;
   exact.reserve (points.size ());
-  for (const Eigen::Vector2d& p : points)
+  for (const Vector& p : points)
     exact.push_back (exactly (p));
   return exact;
 }
@@ -104,6 +117,52 @@ doMeet (const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& a
         const Eigen::Vector3d& b)
 {
   return CGAL::do_intersect (exactly (triangle), Kernel::Segment_3 (exactly (a), exactly (b)));
+}
+
+Tetrahedra
+delaunayInSpace (const Positions& points)
+{
+  using Point = Kernel::Point_3;
+  std::vector<Point> places = exactly (points);
+  std::vector<std::size_t> order (points.size ());
+  std::iota (order.begin (), order.end (), std::size_t{0});
+  using PlaceOf = CGAL::Pointer_property_map<Point>::type;
+  CGAL::spatial_sort<CGAL::Sequential_tag> (
+      order.begin (), order.end (),
+      CGAL::Spatial_sort_traits_adapter_3<Kernel, PlaceOf> (CGAL::make_property_map (places)));
+  SpaceDelaunay delaunay;
+  Tetrahedra made;
+  SpaceDelaunay::Vertex_handle last;
+  for (const std::size_t p : order) {
+    last = delaunay.insert (places[p], last);
+    last->info () = static_cast<Index> (p);
+    if (delaunay.tds ().number_of_cells () > FEW_TETRAHEDRA + MOST_TETRAHEDRA * points.size ())
+      return made;
+  }
+  if (delaunay.dimension () < 3)
+    return made;
+  delaunay.infinite_vertex ()->info () = NONE;
+  Index count = 0;
+  for (auto cell = delaunay.all_cells_begin (); cell != delaunay.all_cells_end (); ++cell)
+    cell->info () = count++;
+  made.corners.reserve (count);
+  made.neighbors.reserve (count);
+  for (auto cell = delaunay.all_cells_begin (); cell != delaunay.all_cells_end (); ++cell) {
+    std::array<Index, 4> corners{}, neighbors{};
+    for (int k = 0; k < 4; ++k) {
+      corners[static_cast<unsigned> (k)] = cell->vertex (k)->info ();
+      neighbors[static_cast<unsigned> (k)] = cell->neighbor (k)->info ();
+    }
+    made.corners.push_back (corners);
+    made.neighbors.push_back (neighbors);
+  }
+  made.around = makeCsrLists (points.size (), [&] (const auto& emit) {
+    for (Index t = 0; t < made.size (); ++t)
+      for (const Index corner : made.corners[t])
+        if (corner != NONE)
+          emit (corner, t);
+  });
+  return made;
 }
 
 } // namespace pcl::floater

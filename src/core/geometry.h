@@ -27,6 +27,13 @@ perimeter (const std::vector<Vector>& positions, const std::vector<Index>& loop)
   return length;
 }
 
+/// Distance between two of some points.
+inline double
+distanceBetween (const Positions& positions, Index p, Index q)
+{
+  return (positions[q] - positions[p]).norm ();
+}
+
 /// Twice the signed area of the triangle of the origin, a and b; positive if b is to the left of a.
 inline double
 cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)

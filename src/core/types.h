@@ -18,6 +18,9 @@ namespace pcl::floater {
 using Index = std::uint32_t;
 constexpr Index NONE = std::numeric_limits<Index>::max ();
 
+/// Positions of points in space.
+using Positions = std::vector<Eigen::Vector3d>;
+
 /// Corners of a triangle, anti-clockwise seen from the front.
 using Triangle = std::array<Index, 3>;
 

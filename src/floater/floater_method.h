@@ -47,14 +47,30 @@ struct Parameterization
 std::vector<std::uint8_t>
 reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunContext& run);
 
+/// Parameters of the boundary loop (TW 385, section 2.1): lays it on a convex curve in the unit circle, anti-clockwise. Steps along the circle,
+/// or along the sides of a polygon, are proportional to the lengths of the loop's steps, to the square roots of these, or equal (LoopSpacing).
+/// The first point of the loop is at angle 0 of the circle, or at the left end of the bottom side of a regular polygon.
+///
+/// Each corner of a regular polygon gets the loop point that is nearest along the loop, a different
+/// one for each, so that no corner is cut off. A loop with fewer points than corners gets a polygon
+/// with fewer corners.
+///
+/// The result is strictly convex, in floating point too, for loops of up to a million points. For
+/// this, the sides of polygons bulge with a thousandth of the circle's curvature (by 2.5e-4 in the
+/// middle of a square's side), and steps are widened to 4e-6, or to half of the mean step of their
+/// side if that is less. On a straight side, an interior point whose neighbours are all on it would
+/// fall on it. O(loop).
+/// \return parameters, parallel to the loop
+std::vector<Eigen::Vector2d>
+layLoop (const Positions& positions, const std::vector<Index>& loop, const DomainOptions& options);
+
 /// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system
 /// (TW 385, equations (1) to (3)). Runs through the stages WEIGHTS and SOLVE.
 /// \param stars     with their offsets; freed as soon as there are weights
 /// \throws std::bad_alloc
 Parameterization
-parameterize (const std::vector<Eigen::Vector3d>& positions, Stars stars,
-              const std::vector<Index>& loop, const DiscOptions& options, const RunContext& run,
-              const DiscLimits& limits = {});
+parameterize (const Positions& positions, Stars stars, const std::vector<Index>& loop,
+              const DiscOptions& options, const RunContext& run, const DiscLimits& limits = {});
 
 struct DiscSettings
 {

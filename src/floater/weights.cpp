@@ -109,13 +109,6 @@ meanValue (const LocalStar& star, double* weights)
     weights[i] /= star.lengths[i];
 }
 
-bool
-isOpposite (const LocalStar& star, std::size_t i, std::size_t j)
-{
-  return star.directions[i].dot (star.directions[j]) < 0.0 &&
-         std::abs (cross (star.directions[i], star.directions[j])) < SAME_DIRECTION;
-}
-
 // Floater 1997, section 6: the ray from a neighbour through the centre leaves the star by an edge.
 // That edge and the neighbour make a triangle around the centre. The weights are the barycentric
 // coordinates of the centre in these triangles, averaged over the neighbours. The edge goes round
@@ -131,6 +124,10 @@ shapePreserving (const LocalStar& star, double* weights)
     return sine > 0.0 ||
            (sine > -SAME_DIRECTION && star.directions[i].dot (star.directions[j]) > 0.0);
   };
+  const auto isOpposite = [&] (std::size_t i, std::size_t j) {
+    return star.directions[i].dot (star.directions[j]) < 0.0 &&
+           std::abs (cross (star.directions[i], star.directions[j])) < SAME_DIRECTION;
+  };
   // Offset of the end of the opposite edge from i, never the next neighbour. If that one is exactly
   // opposite, the triangle with the neighbour after it gives the same coordinates and has an area.
   std::size_t steps = 2;
@@ -142,8 +139,8 @@ shapePreserving (const LocalStar& star, double* weights)
     const std::size_t first = last == 0 ? count - 1 : last - 1;
     // If an end of the edge is exactly opposite, both ends may lie in one direction: a triangle
     // without area.
-    const std::size_t across = isOpposite (star, i, last) ? last : first;
-    if (across != i && isOpposite (star, i, across)) {
+    const std::size_t across = isOpposite (i, last) ? last : first;
+    if (across != i && isOpposite (i, across)) {
       const double whole = star.lengths[i] + star.lengths[across];
       weights[i] += star.lengths[across] / whole;
       weights[across] += star.lengths[i] / whole;

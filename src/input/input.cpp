@@ -47,30 +47,6 @@ checkInput (const Input& input)
   return {};
 }
 
-} // namespace
-
-bool
-isSensorKnown (const std::array<double, 3>& sensor_origin)
-{
-  const Eigen::Map<const Eigen::Vector3d> sensor (sensor_origin.data ());
-  return !sensor.isZero (0.0) && sensor.allFinite ();
-}
-
-Problem
-checkFacing (const Input& input, const Options& options)
-{
-  const auto refused = [] (const char* why) { return Problem{RunStatus::INVALID_OPTION, why}; };
-  if (options.facing == Facing::NORMALS && input.facing_normals.empty ())
-    return refused ("the mesh is to face where the normals of the points point to, but the points "
-                    "have no normals: take points with normals, or choose another facing");
-  if (options.facing == Facing::VIEWPOINT && !mayBeSeen (options) &&
-      !isSensorKnown (input.sensor_origin))
-    return refused ("the mesh is to face the viewpoint, but the cloud has no origin of its sensor, "
-                    "and no viewpoint is looked for: give that origin, or choose another facing");
-  return {};
-}
-
-namespace {
 // Makes points that stand for no measurement not finite, and removes gross outliers.
 Problem
 cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
@@ -128,6 +104,27 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
 
 } // namespace
 
+bool
+isSensorKnown (const std::array<double, 3>& sensor_origin)
+{
+  const Eigen::Map<const Eigen::Vector3d> sensor (sensor_origin.data ());
+  return !sensor.isZero (0.0) && sensor.allFinite ();
+}
+
+Problem
+checkFacing (const Input& input, const Options& options)
+{
+  const auto refused = [] (const char* why) { return Problem{RunStatus::INVALID_OPTION, why}; };
+  if (options.facing == Facing::NORMALS && input.facing_normals.empty ())
+    return refused ("the mesh is to face where the normals of the points point to, but the points "
+                    "have no normals: take points with normals, or choose another facing");
+  if (options.facing == Facing::VIEWPOINT && !mayBeSeen (options) &&
+      !isSensorKnown (input.sensor_origin))
+    return refused ("the mesh is to face the viewpoint, but the cloud has no origin of its sensor, "
+                    "and no viewpoint is looked for: give that origin, or choose another facing");
+  return {};
+}
+
 Problem
 takePoints (Input& input, const Request& request, Points& points, Report& report)
 {
@@ -150,7 +147,7 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
   std::vector<Eigen::Vector3f> ().swap (input.normals);
   points.facing_normals = normalsOfPoints (input.facing_normals, points);
   std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
-  std::vector<Eigen::Vector3d> ().swap (input.positions);
+  Positions ().swap (input.positions);
   std::vector<Index> ().swap (input.cloud_index);
   reportPoints (points, report);
   return {};

@@ -4,7 +4,6 @@
 
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "points/regions.h"
 
 #include <algorithm>
 

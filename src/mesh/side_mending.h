@@ -3,8 +3,8 @@
 // Mends the border between two sides of space where it is no manifold.
 #pragma once
 
+#include "core/exact.h"
 #include "core/order_statistics.h"
-#include "core/tetrahedra.h"
 
 #include <algorithm>
 #include <array>

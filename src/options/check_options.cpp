@@ -13,59 +13,6 @@
 #include <utility>
 
 namespace pcl::floater {
-DiscOptions
-DiscOptions::tw385 ()
-{
-  DiscOptions disc;
-  disc.as_published = true;
-  disc.boundary.method = BoundaryMethod::TWO_SEGMENTS; // section 3.3
-  disc.boundary.opening_angle = 160.0;                 // section 3.1
-  disc.boundary.cluster_tolerance = 0.05;              // sections 3.2 and 5: 5 % of the diagonal
-  disc.domain.curve = Domain::CIRCLE;                  // section 2.1: any convex domain
-  disc.weighting = Weighting::MEAN_VALUE;              // section 4.1, equation (2)
-  disc.solver.method = Solver::UMFPACK;                // section 4.2
-  disc.solver.ordering = Ordering::AMD;                // section 4.2
-  return disc;
-}
-
-Options
-effectiveOptions (const Options& options)
-{
-  Options effective = options;
-  if (!options.disc.as_published)
-    return effective;
-  if (options.topology == Topology::AUTO)
-    effective.topology = Topology::DISC;
-  effective.remove_outliers = false;
-  effective.scatter = ScatterPolicy::AUTO; // a disc keeps all points
-  effective.denoise = false;
-  effective.filter_sheets = false;
-  effective.flip_edges = false;
-  effective.remove_self_intersections = false;
-  return effective;
-}
-
-Limits
-effectiveLimits (const Limits& limits, const Options& options)
-{
-  Limits effective = limits;
-  if (!options.disc.as_published)
-    return effective;
-  effective.planes.core_points = std::numeric_limits<std::size_t>::max ();
-  effective.planes.sheet_sine = 1.0;
-  return effective;
-}
-
-void
-choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given)
-{
-  const DiscOptions published = DiscOptions::tw385 ();
-  if (!boundary_is_given)
-    disc.boundary.method = published.boundary.method;
-  if (!ordering_is_given && disc.solver.method == published.solver.method)
-    disc.solver.ordering = published.solver.ordering;
-}
-
 namespace {
 Problem
 refused (const char* option, const std::string& why)
@@ -139,34 +86,6 @@ checkTogether (const Options& options)
   return {};
 }
 
-} // namespace
-
-std::string
-NumberRange::text () const
-{
-  const std::string from = numberText (least), to = numberText (most);
-  if (most == NO_LIMIT)
-    return from + " or more";
-  if (!without_least && !without_most)
-    return "from " + from + " to " + to;
-  return "above " + from + (without_most ? " and below " : " and at most ") + to;
-}
-
-Problem
-checkOptions (const Options& options)
-{
-  RangeCheck ranges;
-  visitOptions (options, ranges);
-  if (ranges.problem)
-    return ranges.problem;
-  if (Problem problem = checkTogether (options))
-    return problem;
-  if (!options.disc.boundary.loop.empty () && options.disc.boundary.loop.size () < 3)
-    return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
-  return {};
-}
-
-namespace {
 // Why an option has no effect, or nullptr.
 const char*
 reasonOf (UsedFor use, const Options& options, const Report& report)
@@ -179,12 +98,8 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
   const auto isOneOf = [use] (std::initializer_list<UsedFor> uses) {
     return std::find (uses.begin (), uses.end (), use) != uses.end ();
   };
-  struct Reason
-  {
-    bool holds;
-    const char* text;
-  };
-  const Reason reasons[] = {
+  const std::pair<bool, const char*> reasons[] = {
+      // whether it holds, and its text
       {use == UsedFor::KEEP_COUNT && options.holes.policy != HolePolicy::KEEP_COUNT,
        "only the hole policy keep-count reads it"},
       {use == UsedFor::BY_SIZE && options.holes.policy != HolePolicy::BY_SIZE,
@@ -214,11 +129,89 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
        "the solver is direct"},
   };
   const auto first = std::find_if (std::begin (reasons), std::end (reasons),
-                                   [] (const Reason& reason) { return reason.holds; });
-  return first != std::end (reasons) ? first->text : nullptr;
+                                   [] (const auto& reason) { return reason.first; });
+  return first != std::end (reasons) ? first->second : nullptr;
 }
 
 } // namespace
+
+DiscOptions
+DiscOptions::tw385 ()
+{
+  DiscOptions disc;
+  disc.as_published = true;
+  disc.boundary.method = BoundaryMethod::TWO_SEGMENTS; // section 3.3
+  disc.boundary.opening_angle = 160.0;                 // section 3.1
+  disc.boundary.cluster_tolerance = 0.05;              // sections 3.2 and 5: 5 % of the diagonal
+  disc.domain.curve = Domain::CIRCLE;                  // section 2.1: any convex domain
+  disc.weighting = Weighting::MEAN_VALUE;              // section 4.1, equation (2)
+  disc.solver.method = Solver::UMFPACK;                // section 4.2
+  disc.solver.ordering = Ordering::AMD;                // section 4.2
+  return disc;
+}
+
+Options
+effectiveOptions (const Options& options)
+{
+  Options effective = options;
+  if (!options.disc.as_published)
+    return effective;
+  if (options.topology == Topology::AUTO)
+    effective.topology = Topology::DISC;
+  effective.remove_outliers = false;
+  effective.scatter = ScatterPolicy::AUTO; // a disc keeps all points
+  effective.denoise = false;
+  effective.filter_sheets = false;
+  effective.flip_edges = false;
+  effective.remove_self_intersections = false;
+  return effective;
+}
+
+Limits
+effectiveLimits (const Limits& limits, const Options& options)
+{
+  Limits effective = limits;
+  if (!options.disc.as_published)
+    return effective;
+  effective.planes.core_points = std::numeric_limits<std::size_t>::max ();
+  effective.planes.sheet_sine = 1.0;
+  return effective;
+}
+
+void
+choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given)
+{
+  const DiscOptions published = DiscOptions::tw385 ();
+  if (!boundary_is_given)
+    disc.boundary.method = published.boundary.method;
+  if (!ordering_is_given && disc.solver.method == published.solver.method)
+    disc.solver.ordering = published.solver.ordering;
+}
+
+std::string
+NumberRange::text () const
+{
+  const std::string from = numberText (least), to = numberText (most);
+  if (most == NO_LIMIT)
+    return from + " or more";
+  if (!without_least && !without_most)
+    return "from " + from + " to " + to;
+  return "above " + from + (without_most ? " and below " : " and at most ") + to;
+}
+
+Problem
+checkOptions (const Options& options)
+{
+  RangeCheck ranges;
+  visitOptions (options, ranges);
+  if (ranges.problem)
+    return ranges.problem;
+  if (Problem problem = checkTogether (options))
+    return problem;
+  if (!options.disc.boundary.loop.empty () && options.disc.boundary.loop.size () < 3)
+    return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
+  return {};
+}
 
 std::vector<std::string>
 describeUnusedOptions (const Options& options, const Report& report, bool has_plane_normals)

@@ -13,14 +13,13 @@
 
 namespace pcl::floater {
 namespace {
-using PositionList = std::vector<Eigen::Vector3d>;
 
 // The pixels without a return at a place: points within a range of it (the largest coordinate
 // difference), nearest first.
 // \param fewest of them
 // \param most   the range within which most points are
 std::vector<std::pair<double, Index>>
-pixelsAt (const PositionList& positions, const Eigen::Vector3d& place, double range, double fewest,
+pixelsAt (const Positions& positions, const Eigen::Vector3d& place, double range, double fewest,
           double most, const InvalidPointLimits& limits)
 {
   std::vector<std::pair<double, Index>> points;
@@ -49,8 +48,8 @@ pixelsAt (const PositionList& positions, const Eigen::Vector3d& place, double ra
 }
 
 void
-findPixels (const PositionList& positions, const PositionList& sample,
-            const Eigen::Vector3d& origin, const InvalidPointLimits& limits, InvalidPoints& found)
+findPixels (const Positions& positions, const Positions& sample, const Eigen::Vector3d& origin,
+            const InvalidPointLimits& limits, InvalidPoints& found)
 {
   const auto size = static_cast<double> (positions.size ());
   // The place that most points of the sample have, how many have it, and the next.
@@ -91,7 +90,7 @@ findPixels (const PositionList& positions, const PositionList& sample,
 
 // Cells without data have the lowest or the highest z.
 void
-findCells (const PositionList& positions, const Eigen::AlignedBox3d& box, double shift,
+findCells (const Positions& positions, const Eigen::AlignedBox3d& box, double shift,
            const InvalidPointLimits& limits, InvalidPoints& found)
 {
   constexpr double FLOAT = std::numeric_limits<float>::max ();
@@ -136,7 +135,7 @@ findCells (const PositionList& positions, const Eigen::AlignedBox3d& box, double
 } // namespace
 
 InvalidPoints
-findInvalidPoints (const PositionList& positions, const Eigen::Vector3d& shift,
+findInvalidPoints (const Positions& positions, const Eigen::Vector3d& shift,
                    const InvalidPointLimits& limits)
 {
   InvalidPoints found;
@@ -146,7 +145,7 @@ findInvalidPoints (const PositionList& positions, const Eigen::Vector3d& shift,
       box.extend (position);
   constexpr std::size_t LOOKED_AT = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / LOOKED_AT);
-  PositionList sample; // by their coordinates
+  Positions sample; // by their coordinates
   for (std::size_t row = 0; row < positions.size (); row += step)
     if (positions[row].allFinite ())
       sample.push_back (positions[row]);

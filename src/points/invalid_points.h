@@ -41,7 +41,7 @@ struct InvalidPoints
 /// Non-finite points are ignored. O(n); O(n log n) where the lowest or highest z is one.
 /// \param shift was subtracted from the positions
 InvalidPoints
-findInvalidPoints (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& shift,
+findInvalidPoints (const Positions& positions, const Eigen::Vector3d& shift,
                    const InvalidPointLimits& limits = {});
 
 } // namespace pcl::floater

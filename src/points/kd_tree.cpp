@@ -14,10 +14,66 @@ constexpr Index LARGEST_LEAF = 12; // points in a leaf, at most
 constexpr Index LARGEST_LEAF_OF_CURVE =
     20;                          // for points that keep their order; faster than 8 and 12
 constexpr Index PARALLEL = 8192; // points from which on halves are built at the same time
+
+// Points that share a ball. Larger groups need fewer balls, with more points in each. On a height
+// field, this and the next two were the fastest of five choices: 16 or 24 points, margins of 1.3 to
+// 1.5, widths of 2 to 3. The slowest took a fifth more.
+constexpr std::size_t GROUP = 24;
+
+// Radius around each point of the group that the ball covers, relative to the distance of the last
+// neighbour of the point before the group.
+constexpr double MARGIN = 1.3;
+
+// Largest width of a group, in such distances: beyond, the curve has jumped.
+constexpr double WIDEST = 2.5;
+
+// Maximum number of points in a ball for each neighbour. With the widths above it would be (WIDEST
+// / 2 + MARGIN)^2, or 7, on a plane of even density; with many more, the density varies and the
+// tree is faster.
+constexpr std::size_t MOST_POINTS = 32;
+
+// Expected bound of the distance to the last neighbour, relative to the previous point. If it
+// fails, all points within reach are sorted. 1.15 took as long.
+constexpr double EXPECTED = 1.1;
+
+// Squares of shorter distances are imprecise. Coordinates are of the order of one.
+constexpr double SHORTEST = 1e-140;
+
+// Exceeds one by more than the rounding of a sum of distances.
+constexpr double SAFELY = 1.0 + 1e-9;
+
+// Sorts by distance, then point: first by counting in this many classes of the squared distance,
+// which is evenly spread on surfaces, and then by insertion.
+constexpr std::size_t CLASSES = 64;
+
+void
+sortInto (const std::vector<Neighbor>& some, std::size_t count, double sqr_reach,
+          std::vector<Neighbor>& sorted)
+{
+  const double classes_per_distance = static_cast<double> (CLASSES - 1) / sqr_reach;
+  const auto classOf = [classes_per_distance] (const Neighbor& neighbor) {
+    return static_cast<std::size_t> (neighbor.sqr_distance * classes_per_distance);
+  };
+  std::array<std::uint32_t, CLASSES + 1> ends{};
+  for (std::size_t i = 0; i < count; ++i)
+    ++ends[classOf (some[i]) + 1];
+  for (std::size_t c = 1; c <= CLASSES; ++c)
+    ends[c] += ends[c - 1];
+  sorted.resize (count);
+  for (std::size_t i = 0; i < count; ++i)
+    sorted[ends[classOf (some[i])]++] = some[i];
+  for (std::size_t i = 1; i < count; ++i) {
+    const Neighbor moved = sorted[i];
+    std::size_t at = i;
+    for (; at > 0 && moved < sorted[at - 1]; --at)
+      sorted[at] = sorted[at - 1];
+    sorted[at] = moved;
+  }
+}
+
 } // namespace
 
-KdTree::KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run,
-                PointOrder order)
+KdTree::KdTree (const Positions& positions, const RunContext& run, PointOrder order)
 {
   items_.reserve (positions.size ());
   for (std::size_t p = 0; p < positions.size (); ++p)
@@ -127,65 +183,6 @@ KdTree::count (const Eigen::Vector3d& query, double radius) const
   }
   return found;
 }
-
-namespace {
-// Points that share a ball. Larger groups need fewer balls, with more points in each. On a height
-// field, this and the next two were the fastest of five choices: 16 or 24 points, margins of 1.3 to
-// 1.5, widths of 2 to 3. The slowest took a fifth more.
-constexpr std::size_t GROUP = 24;
-
-// Radius around each point of the group that the ball covers, relative to the distance of the last
-// neighbour of the point before the group.
-constexpr double MARGIN = 1.3;
-
-// Largest width of a group, in such distances: beyond, the curve has jumped.
-constexpr double WIDEST = 2.5;
-
-// Maximum number of points in a ball for each neighbour. With the widths above it would be (WIDEST
-// / 2 + MARGIN)^2, or 7, on a plane of even density; with many more, the density varies and the
-// tree is faster.
-constexpr std::size_t MOST_POINTS = 32;
-
-// Expected bound of the distance to the last neighbour, relative to the previous point. If it
-// fails, all points within reach are sorted. 1.15 took as long.
-constexpr double EXPECTED = 1.1;
-
-// Squares of shorter distances are imprecise. Coordinates are of the order of one.
-constexpr double SHORTEST = 1e-140;
-
-// Exceeds one by more than the rounding of a sum of distances.
-constexpr double SAFELY = 1.0 + 1e-9;
-
-// Sorts by distance, then point: first by counting in this many classes of the squared distance,
-// which is evenly spread on surfaces, and then by insertion.
-constexpr std::size_t CLASSES = 64;
-
-void
-sortInto (const std::vector<Neighbor>& some, std::size_t count, double sqr_reach,
-          std::vector<Neighbor>& sorted)
-{
-  const double classes_per_distance = static_cast<double> (CLASSES - 1) / sqr_reach;
-  const auto classOf = [classes_per_distance] (const Neighbor& neighbor) {
-    return static_cast<std::size_t> (neighbor.sqr_distance * classes_per_distance);
-  };
-  std::array<std::uint32_t, CLASSES + 1> ends{};
-  for (std::size_t i = 0; i < count; ++i)
-    ++ends[classOf (some[i]) + 1];
-  for (std::size_t c = 1; c <= CLASSES; ++c)
-    ends[c] += ends[c - 1];
-  sorted.resize (count);
-  for (std::size_t i = 0; i < count; ++i)
-    sorted[ends[classOf (some[i])]++] = some[i];
-  for (std::size_t i = 1; i < count; ++i) {
-    const Neighbor moved = sorted[i];
-    std::size_t at = i;
-    for (; at > 0 && moved < sorted[at - 1]; --at)
-      sorted[at] = sorted[at - 1];
-    sorted[at] = moved;
-  }
-}
-
-} // namespace
 
 // Gathers the points around a group that begins at `first`. Returns its end.
 std::size_t

@@ -42,7 +42,7 @@ enum class PointOrder
 class KdTree
 {
 public:
-  explicit KdTree (const std::vector<Eigen::Vector3d>& positions, const RunContext& run = 1,
+  explicit KdTree (const Positions& positions, const RunContext& run = 1,
                    PointOrder order = PointOrder::ANY);
 
   /// Is told the ball that each search covered: the result depends on all points of the cloud in it. In
@@ -210,8 +210,7 @@ class SequentialSearch
 {
 public:
   /// \param tree, positions the tree, and the positions it was made from; must outlive this
-  SequentialSearch (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions,
-                    std::size_t k)
+  SequentialSearch (const KdTree& tree, const Positions& positions, std::size_t k)
       : tree_ (tree), positions_ (positions), k_ (k)
   {
   }
@@ -236,7 +235,7 @@ private:
   bool searchBall (const Eigen::Vector3d& query, double reach);
 
   const KdTree& tree_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   std::size_t k_;
   std::vector<Neighbor> found_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero (); // last query, and the distance to its last

@@ -29,8 +29,8 @@ emptyLists (std::size_t points, std::size_t rows, int k)
 // Searches a tree for the k nearest of the rows, without themselves. NONE for missing ones: points
 // whose squared distance underflows may push them out of the results.
 void
-searchTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions, const Rows& rows,
-            CsrLists& lists, const RunContext& run)
+searchTree (const KdTree& tree, const Positions& positions, const Rows& rows, CsrLists& lists,
+            const RunContext& run)
 {
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Index> points;
@@ -53,47 +53,14 @@ searchTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions, c
 }
 
 CsrLists
-nearestByTree (const KdTree& tree, const std::vector<Eigen::Vector3d>& positions, const Rows& rows,
-               int k, const RunContext& run)
+nearestByTree (const KdTree& tree, const Positions& positions, const Rows& rows, int k,
+               const RunContext& run)
 {
   CsrLists lists = emptyLists (positions.size (), rows.size (), k);
   searchTree (tree, positions, rows, lists, run);
   return lists;
 }
 
-} // namespace
-
-CsrLists
-findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
-                      const RunContext& run)
-{
-  return nearestByTree (KdTree (positions, run), positions, rows, k, run);
-}
-
-CsrLists
-findNearestOfBlock (BlockSearch& search, std::size_t points, int k, const RunContext& run)
-{
-  CsrLists lists = emptyLists (points, search.ownLast () - search.ownFirst (), k);
-  do
-    searchTree (search.makeTree (run), search.positions (),
-                Rows::range (search.ownFirst (), search.ownLast ()), lists, run);
-  while (search.widen ());
-  for (Index& place : lists.ids)
-    place = place == NONE ? NONE : search.points ()[place];
-  return lists;
-}
-
-double
-spacingOf (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row)
-{
-  const std::size_t count = std::min<std::size_t> (SPACING_NEIGHBORS, row.size ());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-    sum += (positions[row[i]] - positions[p]).norm ();
-  return count > 0 ? sum / static_cast<double> (count) : 0.0;
-}
-
-namespace {
 constexpr std::size_t MOST_IN_BALL = 200; // beside a jump in density there may be any number
 
 // Radius of the ball around a point, given its nearest others. Widened to the farthest of them if
@@ -163,7 +130,7 @@ private:
   // Measures what was found.
   void translate (Index p, std::vector<Neighbor>& found) const
   {
-    const std::vector<Eigen::Vector3d>& positions = points_.workingPositions ();
+    const Positions& positions = points_.workingPositions ();
     found.clear ();
     for (const Index cloud_index : cloud_indices_)
       if (cloud_index < point_of_.size () && point_of_[cloud_index] != NONE &&
@@ -216,7 +183,7 @@ CsrLists
 findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings& settings,
                  const RunContext& run, std::optional<KdTree>* tree = nullptr)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const Positions& positions = points.workingPositions ();
   if (settings.search != nullptr)
     return searchEach (rows, settings.options, CallerSearch (points, *settings.search),
                        run.withThreads (1));
@@ -234,6 +201,35 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
 }
 
 } // namespace
+
+CsrLists
+findNearestNeighbors (const Positions& positions, const Rows& rows, int k, const RunContext& run)
+{
+  return nearestByTree (KdTree (positions, run), positions, rows, k, run);
+}
+
+CsrLists
+findNearestOfBlock (BlockSearch& search, std::size_t points, int k, const RunContext& run)
+{
+  CsrLists lists = emptyLists (points, search.ownLast () - search.ownFirst (), k);
+  do
+    searchTree (search.makeTree (run), search.positions (),
+                Rows::range (search.ownFirst (), search.ownLast ()), lists, run);
+  while (search.widen ());
+  for (Index& place : lists.ids)
+    place = place == NONE ? NONE : search.points ()[place];
+  return lists;
+}
+
+double
+spacingOf (const Positions& positions, Index p, const Row& row)
+{
+  const std::size_t count = std::min<std::size_t> (SPACING_NEIGHBORS, row.size ());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += (positions[row[i]] - positions[p]).norm ();
+  return count > 0 ? sum / static_cast<double> (count) : 0.0;
+}
 
 CsrLists
 findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,

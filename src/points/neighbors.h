@@ -46,8 +46,7 @@ private:
 /// are no more. Row i belongs to rows[i]. O(n log n).
 /// \throws IndexLimitReached if there are 2^32 - 1 entries or more
 CsrLists
-findNearestNeighbors (const std::vector<Eigen::Vector3d>& positions, const Rows& rows, int k,
-                      const RunContext& run);
+findNearestNeighbors (const Positions& positions, const Rows& rows, int k, const RunContext& run);
 
 /// findNearestNeighbors () for the own points of a block; widens the block where needed.
 /// \param points of the whole cloud
@@ -59,7 +58,7 @@ constexpr std::size_t SPACING_NEIGHBORS = 6;
 
 /// Mean distance of a point to its SPACING_NEIGHBORS nearest, by its row; 0 if it has no neighbours.
 double
-spacingOf (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row);
+spacingOf (const Positions& positions, Index p, const Row& row);
 
 inline bool
 isInBalls (Neighborhood kind)

@@ -12,20 +12,13 @@
 
 namespace pcl::floater {
 namespace {
-double
-lengthTo (const std::vector<Eigen::Vector3d>& positions, Index p, Index q)
-{
-  return (positions[q] - positions[p]).norm ();
-}
-
 // Spacing around a point, by its row of neighbours; that of a cluster, by the points around it.
 double
-spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row,
-               const NetLimits& limits)
+spacingAround (const Positions& positions, Index p, const Row& row, const NetLimits& limits)
 {
   const std::size_t count = std::min<std::size_t> (row.size (), SPACING_NEIGHBORS);
-  const double last = lengthTo (positions, p, row[row.size () - 1]);
-  return lengthTo (positions, p, row[count - 1]) < limits.cluster * last
+  const double last = distanceBetween (positions, p, row[row.size () - 1]);
+  return distanceBetween (positions, p, row[count - 1]) < limits.cluster * last
              ? limits.cluster_spacing * last
              : spacingOf (positions, p, row);
 }
@@ -35,14 +28,14 @@ spacingAround (const std::vector<Eigen::Vector3d>& positions, Index p, const Row
 // \param gap in spacings
 template <typename Visit>
 void
-visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row& row, double gap,
+visitTooNear (const Positions& positions, Index p, const Row& row, double gap,
               const NetLimits& limits, Visit&& visit)
 {
   if (row.size () == 0)
     return;
   const double spacing = spacingAround (positions, p, row, limits);
   for (const Index q : row) {
-    const double d = lengthTo (positions, p, q);
+    const double d = distanceBetween (positions, p, q);
     if (d >= gap * spacing || !visit (q, d, spacing))
       return;
   }
@@ -50,7 +43,7 @@ visitTooNear (const std::vector<Eigen::Vector3d>& positions, Index p, const Row&
 
 // Points that an earlier one sets aside, ascending.
 std::vector<Index>
-pointsTooNear (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
+pointsTooNear (const Positions& positions, const CsrLists& neighbors,
                const std::vector<std::uint8_t>& is_stacked, const NetLimits& limits)
 {
   std::vector<Index> aside;
@@ -71,8 +64,8 @@ pointsTooNear (const std::vector<Eigen::Vector3d>& positions, const CsrLists& ne
 // Flags of the points in whose surroundings points lie on one another; empty if there are none. 0.05
 // microseconds a point where there are none.
 std::vector<std::uint8_t>
-findStackedPlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                   const NetLimits& limits, const RunContext& run)
+findStackedPlaces (const Positions& positions, const CsrLists& neighbors, const NetLimits& limits,
+                   const RunContext& run)
 {
   const std::size_t n = positions.size ();
   std::vector<std::uint8_t> is_equal (n, 0), is_stacked_block (n / RANGE_LENGTH + 1, 0);

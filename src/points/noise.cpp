@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "points/regions.h"
 
 #include <Eigen/Cholesky>
 
@@ -47,10 +46,9 @@ struct PointSample
 };
 
 PointSample
-takeSample (const std::vector<Eigen::Vector3d>& positions, std::size_t stride,
-            const RunContext& run)
+takeSample (const Positions& positions, std::size_t stride, const RunContext& run)
 {
-  std::vector<Eigen::Vector3d> kept;
+  Positions kept;
   kept.reserve (positions.size () / stride + 1);
   for (std::size_t p = 0; p < positions.size (); p += stride)
     kept.push_back (positions[p]);
@@ -91,7 +89,7 @@ struct Place
 // Measures the noise at one point; scratch is reused from point to point.
 struct NoiseMeter
 {
-  const std::vector<Eigen::Vector3d>& positions;
+  const Positions& positions;
   const CsrLists& neighbors;
   std::array<const PointSample*, SCALES> samples;
   const NoiseLimits& limits;
@@ -233,8 +231,8 @@ struct Places
 };
 
 Places
-measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-               const NoiseLimits& limits, const RunContext& run)
+measurePlaces (const Positions& positions, const CsrLists& neighbors, const NoiseLimits& limits,
+               const RunContext& run)
 {
   const PointSample quarter = takeSample (positions, STRIDES[1], run),
                     sixteenth = takeSample (positions, STRIDES[2], run);
@@ -265,8 +263,8 @@ measurePlaces (const std::vector<Eigen::Vector3d>& positions, const CsrLists& ne
 } // namespace
 
 Noise
-measureNoise (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const NoiseLimits& limits, const RunContext& run)
+measureNoise (const Positions& positions, const CsrLists& neighbors, const NoiseLimits& limits,
+              const RunContext& run)
 {
   const std::size_t n = positions.size ();
   Noise noise;
@@ -358,9 +356,9 @@ keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
       noise.at_point[p] = 0.0F;
 }
 
-std::vector<Eigen::Vector3d>
-projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                    const Noise& noise, const NoiseLimits& limits, const RunContext& run)
+Positions
+projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const Noise& noise,
+                    const NoiseLimits& limits, const RunContext& run)
 {
   constexpr std::size_t MOST = 60; // points of a plane
   constexpr double NARROWNESS = 4.0;
@@ -370,7 +368,7 @@ projectNoisyPoints (const std::vector<Eigen::Vector3d>& positions, const CsrList
   samples.reserve (std::size (STRIDES));
   for (const std::size_t stride : STRIDES)
     samples.push_back (takeSample (positions, stride, run));
-  std::vector<Eigen::Vector3d> projected = positions;
+  Positions projected = positions;
   parallelPoints<std::vector<Neighbor>> (run, positions.size (), [&] (Index p, auto& found) {
     const auto deviation = static_cast<double> (noise.at_point[p]);
     if (deviation <= 0.0)

@@ -17,7 +17,6 @@
 
 namespace pcl::floater {
 namespace {
-using Positions = std::vector<Eigen::Vector3d>;
 
 // The median in each coordinate, of the finite points.
 Eigen::Vector3d
@@ -37,19 +36,18 @@ medianPoint (const Positions& positions)
   return middle;
 }
 
-// Not squared: squares would overflow. An infinite difference is larger than all others.
-double
-distanceFrom (const Eigen::Vector3d& centre, const Eigen::Vector3d& p)
-{
-  return (p - centre).cwiseAbs ().maxCoeff ();
-}
-
-// Distances around a median point.
+// Distances around a median point: the largest coordinate difference, as squares would overflow. An infinite
+// one is larger than all others.
 struct Bulk
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   double radius = std::numeric_limits<double>::infinity (); // infinite: there is no wide gap
   std::size_t points = 0;                                   // of the cloud, finite ones
+
+  double distanceTo (const Eigen::Vector3d& p) const
+  {
+    return (p - centre).lpNorm<Eigen::Infinity> ();
+  }
 };
 
 // Grows the radius over the points beyond it until there is a wide gap to the next. Starts with the
@@ -66,7 +64,7 @@ findBulk (const Positions& positions, double gap)
     if (!p.allFinite ())
       continue;
     ++bulk.points;
-    if (const double distance = distanceFrom (bulk.centre, p); distance > 0.0)
+    if (const double distance = bulk.distanceTo (p); distance > 0.0)
       distances.push_back (distance);
   }
   if (distances.empty ())
@@ -120,45 +118,8 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   return isolated;
 }
 
-} // namespace
-
-GrossOutliers
-findGrossOutliers (const Positions& positions, const RunContext& run,
-                   const GrossOutlierLimits& limits)
-{
-  GrossOutliers found;
-  if (positions.size () < limits.fewest)
-    return found;
-  const Bulk bulk = findBulk (positions, limits.gap);
-  if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
-    return found;
-  // The bulk is a surface of at most this many points: their spacing is about the radius over their
-  // root. A frame has 1 / epsilon steps across it.
-  const double spacing = bulk.radius / std::sqrt (static_cast<double> (bulk.points));
-  const double largest_frame = spacing / (limits.steps * std::numeric_limits<double>::epsilon ());
-  std::vector<Index> beyond;
-  for (std::size_t row = 0; row < positions.size (); ++row) {
-    if (!positions[row].allFinite ())
-      continue;
-    const double distance = distanceFrom (bulk.centre, positions[row]);
-    if (distance > largest_frame)
-      found.unbearable.push_back (static_cast<Index> (row));
-    else if (distance > bulk.radius)
-      beyond.push_back (static_cast<Index> (row));
-  }
-  found.isolated = keepIsolated (positions, bulk, std::move (beyond), run, limits);
-  return found;
-}
-
-namespace {
 constexpr std::size_t NEAREST_POINTS = 20; // nearest neighbours, also for balls
 constexpr std::size_t REACH_OF = 6;        // neighbour whose distance is a point's reach
-
-double
-distance (const Positions& positions, Index p, Index q)
-{
-  return (positions[p] - positions[q]).norm ();
-}
 
 // Fits the plane of the neighbours of a point without it, then again without strays.
 // \param scratch reused from point to point
@@ -193,7 +154,7 @@ isApart (const Positions& positions, Index p, const Row& row, const std::vector<
     return false;
   // The nearest ones may be of the same small cluster: the threshold uses the reach of the others.
   const std::size_t beyond = std::min (limits.cluster, row.size () / 2);
-  const double to_others = distance (positions, p, row[beyond]);
+  const double to_others = distanceBetween (positions, p, row[beyond]);
   scratch.clear ();
   for (std::size_t i = beyond; i < row.size (); ++i)
     scratch.push_back (reach[row[i]]);
@@ -262,9 +223,37 @@ smallClusters (const CsrLists& arcs, std::size_t largest_cluster,
 
 } // namespace
 
+GrossOutliers
+findGrossOutliers (const Positions& positions, const RunContext& run,
+                   const GrossOutlierLimits& limits)
+{
+  GrossOutliers found;
+  if (positions.size () < limits.fewest)
+    return found;
+  const Bulk bulk = findBulk (positions, limits.gap);
+  if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
+    return found;
+  // The bulk is a surface of at most this many points: their spacing is about the radius over their
+  // root. A frame has 1 / epsilon steps across it.
+  const double spacing = bulk.radius / std::sqrt (static_cast<double> (bulk.points));
+  const double largest_frame = spacing / (limits.steps * std::numeric_limits<double>::epsilon ());
+  std::vector<Index> beyond;
+  for (std::size_t row = 0; row < positions.size (); ++row) {
+    if (!positions[row].allFinite ())
+      continue;
+    const double distance = bulk.distanceTo (positions[row]);
+    if (distance > largest_frame)
+      found.unbearable.push_back (static_cast<Index> (row));
+    else if (distance > bulk.radius)
+      beyond.push_back (static_cast<Index> (row));
+  }
+  found.isolated = keepIsolated (positions, bulk, std::move (beyond), run, limits);
+  return found;
+}
+
 std::vector<Index>
-findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run, const OutlierLimits& limits)
+findOutliers (const Positions& positions, const CsrLists& neighbors, const RunContext& run,
+              const OutlierLimits& limits)
 {
   const std::size_t n = positions.size ();
   if (n < 3 * limits.cluster)
@@ -272,8 +261,8 @@ findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   std::vector<float> reach (n, 0.0F); // distance to the 6th nearest neighbour; 0 if there are none
   parallelPoints (run, n, [&] (Index p) {
     if (const Row row = neighbors.row (p); row.size () > 0)
-      reach[p] =
-          static_cast<float> (distance (positions, p, row[std::min (REACH_OF, row.size ()) - 1]));
+      reach[p] = static_cast<float> (
+          distanceBetween (positions, p, row[std::min (REACH_OF, row.size ()) - 1]));
   });
   std::vector<std::uint8_t> apart (n, 0);
   parallelPoints<std::vector<double>> (run, n, [&] (Index p, std::vector<double>& scratch) {

@@ -36,7 +36,7 @@ struct GrossOutliers
 /// points. O(n), 60 nanoseconds and 8 bytes per point; plus a neighbour search among the points
 /// beyond a gap.
 GrossOutliers
-findGrossOutliers (const std::vector<Eigen::Vector3d>& positions, const RunContext& run,
+findGrossOutliers (const Positions& positions, const RunContext& run,
                    const GrossOutlierLimits& limits = {});
 
 /// Thresholds of points off any surface. Distances are in reaches: the distance of a point to its
@@ -67,7 +67,7 @@ struct OutlierLimits
 /// per point, in one thread where points lie apart.
 /// \param neighbors of each point, nearest first
 std::vector<Index>
-findOutliers (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run, const OutlierLimits& limits = {});
+findOutliers (const Positions& positions, const CsrLists& neighbors, const RunContext& run,
+              const OutlierLimits& limits = {});
 
 } // namespace pcl::floater

@@ -34,7 +34,7 @@ unite (const std::vector<Box>& boxes, std::size_t first, std::size_t last)
 } // namespace
 
 std::vector<Box>
-BlockCutter::makeBuckets (const std::vector<Eigen::Vector3d>& positions)
+BlockCutter::makeBuckets (const Positions& positions)
 {
   std::vector<Box> buckets (bucketsOf (positions.size ()));
   for (std::size_t p = 0; p < positions.size (); ++p)

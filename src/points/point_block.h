@@ -25,10 +25,10 @@ struct BlockCutter
   std::size_t blocks;       ///< some have no points if there are more blocks than buckets
 
   /// Appends the positions of the points from `first` to before `last`.
-  std::function<void (Index first, Index last, std::vector<Eigen::Vector3d>& positions)> read;
+  std::function<void (Index first, Index last, Positions& positions)> read;
 
   /// Buckets: the boxes of 64 consecutive points each. 0.75 bytes per point. O(n).
-  static std::vector<Box> makeBuckets (const std::vector<Eigen::Vector3d>& positions);
+  static std::vector<Box> makeBuckets (const Positions& positions);
 
   /// First point of a block. For block == blocks: the number of points.
   static Index firstOf (std::size_t block, std::size_t blocks, std::size_t points);
@@ -52,7 +52,7 @@ public:
                const std::vector<Index>& more = {});
 
   /// Positions of the points of the block, in the order of the working set.
-  const std::vector<Eigen::Vector3d>& positions () const { return positions_; }
+  const Positions& positions () const { return positions_; }
 
   /// Their indices in the working set, ascending.
   const std::vector<Index>& points () const { return points_; }
@@ -84,7 +84,7 @@ private:
   const BlockCutter& cutter_;
   std::size_t index_;
   std::vector<bool> is_wanted_; // of each bucket: asked for
-  std::vector<Eigen::Vector3d> positions_;
+  Positions positions_;
   std::vector<Index> points_;
   double halo_ = 0.0;       // every point within this distance of an own point is in the block
   std::vector<Ball> balls_; // every point in these is in the block

@@ -62,15 +62,6 @@ hilbertCodeInCell (const Eigen::Vector3d& position)
   return codeOf (static_cast<double> (1U << HILBERT_BITS) * (place - place.floor ()));
 }
 
-} // namespace
-
-std::uint64_t
-hilbertCode (const Eigen::Vector3d& position)
-{
-  return codeOf (inCells (position));
-}
-
-namespace {
 // Points of a piece of the cloud, which stays in memory during random access, up to 100 MB: the
 // others may be in a mapped file.
 constexpr std::size_t PART = std::size_t{1} << 22U;
@@ -115,7 +106,7 @@ leaveDuplicatesOut (Points& points)
 // objects far apart are on a line within rounding, but not as seen from a point of one. The point
 // in the middle of the order is in the larger of two objects.
 bool
-isLineSeenFromWithin (const std::vector<Eigen::Vector3d>& positions)
+isLineSeenFromWithin (const Positions& positions)
 {
   constexpr double STRAIGHT = 1e-4; // sine of an angle; near points are rounded more
   const Eigen::Vector3d& from = positions[positions.size () / 2];
@@ -140,8 +131,8 @@ struct Key
 // Takes the finite positions along the Hilbert curve in the frame of the points, then along the curve
 // in each cell, then by coordinates; of equal positions, the smallest cloud index first.
 void
-takeAlongCurve (const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Index>& cloud_index, const RunContext& run, Points& points)
+takeAlongCurve (const Positions& positions, const std::vector<Index>& cloud_index,
+                const RunContext& run, Points& points)
 {
   const auto scaled = [&] (Index row) -> Eigen::Vector3d {
     return (positions[row] - points.centre) / points.scale;
@@ -196,8 +187,14 @@ removeStacked (StackedPoints& stacked, const std::vector<Index>& removed,
 
 } // namespace
 
+std::uint64_t
+hilbertCode (const Eigen::Vector3d& position)
+{
+  return codeOf (inCells (position));
+}
+
 Points
-makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
+makePoints (const Positions& positions, const std::vector<Index>& cloud_index,
             const RunContext& run)
 {
   Points points;

@@ -17,22 +17,22 @@ namespace pcl::floater {
 /// Points that lie on others, which stand for them until there is a mesh (see setAside).
 struct StackedPoints
 {
-  std::vector<Eigen::Vector3d> positions; ///< in the order of the curve
-  std::vector<Index> cloud_index;         ///< of each
-  std::vector<Index> of;                  ///< the point of the working set that stands for it
-  std::vector<Eigen::Vector3d> own;       ///< positions of the working set itself
+  Positions positions;            ///< in the order of the curve
+  std::vector<Index> cloud_index; ///< of each
+  std::vector<Index> of;          ///< the point of the working set that stands for it
+  Positions own;                  ///< positions of the working set itself
 };
 
 /// The working set: finite, distinct points in the order of a space-filling curve, so near points
 /// are near in memory. The order depends only on the coordinates.
 struct Points
 {
-  std::vector<Eigen::Vector3d> positions; ///< centred, scaled to a bounding box diagonal of 1
-  std::vector<Eigen::Vector3d> projected; ///< projections of noisy points on local planes; empty if
-                                          ///< noise is weak
-  std::vector<Index> cloud_index;         ///< of each point; the smallest of equal points
-  std::vector<Eigen::Vector3f> normals;   ///< given normals: unit length, arbitrary sign, zero
-                                          ///< where missing; empty if none are given
+  Positions positions;                  ///< centred, scaled to a bounding box diagonal of 1
+  Positions projected;                  ///< projections of noisy points on local planes; empty if
+                                        ///< noise is weak
+  std::vector<Index> cloud_index;       ///< of each point; the smallest of equal points
+  std::vector<Eigen::Vector3f> normals; ///< given normals: unit length, arbitrary sign, zero
+                                        ///< where missing; empty if none are given
   std::vector<Eigen::Vector3f> facing_normals;       ///< normals towards the front, as above
   Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
@@ -49,16 +49,10 @@ struct Points
   std::size_t total () const { return size () + stacked.of.size (); }
 
   /// Positions by which points are connected. The mesh uses `positions`.
-  const std::vector<Eigen::Vector3d>& workingPositions () const
-  {
-    return projected.empty () ? positions : projected;
-  }
+  const Positions& workingPositions () const { return projected.empty () ? positions : projected; }
 
   /// The positions of the points themselves; `positions` may be means of stacks.
-  const std::vector<Eigen::Vector3d>& ownPositions () const
-  {
-    return stacked.own.empty () ? positions : stacked.own;
-  }
+  const Positions& ownPositions () const { return stacked.own.empty () ? positions : stacked.own; }
 
   /// A position in the frame of the cloud.
   Eigen::Vector3d inCloud (Index point) const { return centre + scale * ownPositions ()[point]; }
@@ -81,7 +75,7 @@ hilbertCode (const Eigen::Vector3d& position);
 /// later.
 /// \param cloud_index of each position; distinct
 Points
-makePoints (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cloud_index,
+makePoints (const Positions& positions, const std::vector<Index>& cloud_index,
             const RunContext& run);
 
 /// Given normals of the points, from those of the whole cloud, if any: unit length, or zero where

@@ -34,12 +34,10 @@ constexpr Sentence SENTENCES[] = {
      "or a cloud may be in the file twice"},
     {FindingId::INVALID_PIXELS, "invalid_pixels", Severity::NOTE,
      "{0:point is|points are} at ({n2}, {n3}, {n4}), {n1} % of the cloud, and nothing else is "
-     "near: "
-     "{0?it is a pixel|they are pixels} without a return, and {0?was|were} left out"},
+     "near: {0?it is a pixel|they are pixels} without a return, and {0?was|were} left out"},
     {FindingId::INVALID_CELLS, "invalid_cells", Severity::NOTE,
      "{0:point has|points have} the height {n1}, {n2} away from all others: {0?it is a cell|they "
-     "are "
-     "cells} without data, and {0?was|were} left out"},
+     "are cells} without data, and {0?was|were} left out"},
     {FindingId::GROSS_OUTLIERS, "gross_outliers", Severity::NOTE,
      "{0:point is|points are} over a thousand times as far away as all others, {0?|among them }"
      "point {n1}: {0?it was|they were} left out"},
@@ -55,21 +53,18 @@ constexpr Sentence SENTENCES[] = {
      "{0?|among them }{p0}. {0?It was|They were} left out; the scatter policy decides that"},
     {FindingId::NOISE, "noise", Severity::DOUBT,
      "{0:point is|points are} noisy ({n4} % of the cloud), by up to {n1} local spacings (median of "
-     "all points {n2}, 90 % "
-     "below {n3}): {0?it was connected by its place on the plane|they were connected by their "
-     "places on the planes} of the points around; the vertices of the mesh are the points "
-     "themselves"},
+     "all points {n2}, 90 % below {n3}): {0?it was connected by its place on the plane|they were "
+     "connected by their places on the planes} of the points around; the vertices of the mesh are "
+     "the points themselves"},
     {FindingId::COORDINATES_IN_FLOAT, "coordinates_in_float", Severity::DOUBT,
      "the coordinates are coarse: along {a0} they are {n1} apart, {n2} of the local spacing{3+, "
-     "and "
-     "{3:point coincides|points coincide} with another}. 32-bit numbers have this step so far from "
-     "the origin: subtract an origin before coordinates are stored in 32 bits; the tool's --shift "
-     "does that for files in text or in double precision"},
+     "and {3:point coincides|points coincide} with another}. 32-bit numbers have this step so far "
+     "from the origin: subtract an origin before coordinates are stored in 32 bits; the tool's "
+     "--shift does that for files in text or in double precision"},
     {FindingId::COORDINATES_ROUNDED, "coordinates_rounded", Severity::DOUBT,
      "the coordinates are coarse: along {a0} they are {n1} apart, {n2} of the local spacing{3+, "
-     "and "
-     "{3:point coincides|points coincide} with another}. They were rounded when they were stored: "
-     "store them with more digits"},
+     "and {3:point coincides|points coincide} with another}. They were rounded when they were "
+     "stored: store them with more digits"},
     {FindingId::DOUBTFUL_VIEWPOINT, "doubtful_viewpoint", Severity::DOUBT,
      "{n0} of {n1} points are in no triangle of the view: the sensor may not have been at the "
      "given viewpoint"},
@@ -94,8 +89,7 @@ constexpr Sentence SENTENCES[] = {
      "to the rest of the surface"},
     {FindingId::FOLDS, "folds", Severity::FLAW,
      "{0:edge is|edges are} folded by more than 120 degrees{at}: {1+the points are noisy, }sheets "
-     "of "
-     "the surface come close there, or a feature is thinly sampled"},
+     "of the surface come close there, or a feature is thinly sampled"},
     {FindingId::CROSSING_TRIANGLES, "crossing_triangles", Severity::FLAW,
      "{2+more than }{0:pair of triangles crosses|pairs of triangles cross} each other{at}: "
      "{1+the points are noisy, }sheets of the surface come closer there than their points are, or "

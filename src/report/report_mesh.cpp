@@ -18,9 +18,8 @@ constexpr double SMALL_HOLE = 6.0;     // spacings: wider holes may belong to th
 constexpr std::size_t FEW_POINTS = 50; // points of a small component, while ...
 constexpr std::size_t TINY_SHARE = 20; // ... another one has this many times as many
 // Share of edges bent by more than 60 degrees. Of generated thin and sharp bodies it was up to 0.058, of 66
-// public models that came out right up to 0.053, of those with parts that were joined or cut off by
-// mistake 0.064 to 0.32. A cube of n points has 1.6 / sqrt (n), a plate 1.9: such edges are few in large
-// clouds.
+// public models that came out right up to 0.053, of those with parts that were joined or cut off by mistake
+// 0.064 to 0.32. A cube of n points has 1.6 / sqrt (n), a plate 1.9: such edges are few in large clouds.
 constexpr double BENT_SHARE = 0.06, BENT_BY_SHAPE = 2.0;
 constexpr std::size_t FEWEST_BENT = 100; // points; a body of few may be all sharp: an octahedron
 // Noisy and stacked points bend edges, too: they may be one in so many.
@@ -143,79 +142,6 @@ whyNothingIsLeft (const Trimming& trimming, const TrimmingOptions& options)
          "the cloud";
 }
 
-} // namespace
-
-void
-reportDisc (const Points& points, const Disc& disc, Report& report)
-{
-  const Parameterization& parameterization = disc.parameterization;
-  const Boundary& boundary = disc.boundary;
-  report.loop = valuesAt (points.cloud_index, boundary.loop);
-  report.statistics.boundary_candidates = boundary.candidates;
-  report.statistics.loop_points = boundary.loop.size ();
-  if (boundary.largest_step > LONG_STEP)
-    addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
-                boundary.largest_step);
-  const Solution& solution = parameterization.solution;
-  Statistics& statistics = report.statistics;
-  statistics.unknowns = parameterization.unknowns;
-  statistics.nnz_matrix = parameterization.nonzeros;
-  statistics.nnz_factors = solution.nnz_factors;
-  if (parameterization.nonzeros > 0)
-    statistics.fill_in = static_cast<double> (solution.nnz_factors) /
-                         static_cast<double> (parameterization.nonzeros);
-  statistics.residual = solution.residual;
-  statistics.relative_residual = solution.relative_residual;
-  statistics.iterations_u = solution.iterations[0];
-  statistics.iterations_v = solution.iterations[1];
-  statistics.reciprocal_condition = solution.reciprocal_condition;
-  statistics.factorization_bytes = solution.peak_bytes;
-  if (parameterization.uv.empty ())
-    return;
-  const Eigen::Vector2d nowhere =
-      Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
-  const Eigen::Array2d mirror (1.0, disc.finish.facing.turned > 0 ? -1.0 : 1.0);
-  report.parameters.assign (report.statistics.cloud_points, nowhere);
-  for (Index p = 0; p < points.cloud_index.size (); ++p)
-    report.parameters[points.cloud_index[p]] = parameterization.uv[p].array () * mirror;
-  for (const std::array<Index, 2>& duplicate : points.duplicates)
-    report.parameters[duplicate[0]] = report.parameters[duplicate[1]];
-}
-
-void
-reportLoops (const Points& points, const Surface& surface, Report& report)
-{
-  if (const std::vector<Triangle>& seam = surface.orientation_seam; !seam.empty ())
-    addFinding (report, FindingId::ONE_SIDED, points, {seam.front ()[0]}, seam.size ());
-  report.statistics.holes_filled = surface.holes_filled;
-  std::size_t too_deep = 0;
-  const BoundaryLoop* widest = nullptr;
-  for (const BoundaryLoop& loop : surface.doubtful_loops) {
-    const LoopSummary summary = summaryOf (loop, points);
-    const LoopDecision decision{summary.points,
-                                summary.width,
-                                summary.width_spacings,
-                                summary.at,
-                                loop.keep_open,
-                                loop.judgement.probability (),
-                                loop.judgement.is_too_deep};
-    if (decision.is_too_deep && decision.stays_open && decision.probability <= 0.5) {
-      ++too_deep;
-      if (widest == nullptr || loop.width > widest->width)
-        widest = &loop;
-    }
-    report.loop_decisions.push_back (decision);
-  }
-  std::stable_sort (report.loop_decisions.begin (), report.loop_decisions.end (),
-                    [] (const LoopDecision& a, const LoopDecision& b) {
-                      return std::abs (a.probability - 0.5) < std::abs (b.probability - 0.5);
-                    });
-  if (too_deep > 0)
-    addFinding (report, FindingId::DEEP_HOLES, points, {widest->points.front ()}, too_deep,
-                widest->width * points.scale, widest->width / widest->spacing);
-}
-
-namespace {
 // Thresholds for the report. They do not change the mesh.
 constexpr std::size_t TINY_OBJECT = 20; // a part is tiny if the mesh has this many times its
                                         // triangles
@@ -328,6 +254,76 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
 }
 
 } // namespace
+
+void
+reportDisc (const Points& points, const Disc& disc, Report& report)
+{
+  const Parameterization& parameterization = disc.parameterization;
+  const Boundary& boundary = disc.boundary;
+  report.loop = valuesAt (points.cloud_index, boundary.loop);
+  report.statistics.boundary_candidates = boundary.candidates;
+  report.statistics.loop_points = boundary.loop.size ();
+  if (boundary.largest_step > LONG_STEP)
+    addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
+                boundary.largest_step);
+  const Solution& solution = parameterization.solution;
+  Statistics& statistics = report.statistics;
+  statistics.unknowns = parameterization.unknowns;
+  statistics.nnz_matrix = parameterization.nonzeros;
+  statistics.nnz_factors = solution.nnz_factors;
+  if (parameterization.nonzeros > 0)
+    statistics.fill_in = static_cast<double> (solution.nnz_factors) /
+                         static_cast<double> (parameterization.nonzeros);
+  statistics.residual = solution.residual;
+  statistics.relative_residual = solution.relative_residual;
+  statistics.iterations_u = solution.iterations[0];
+  statistics.iterations_v = solution.iterations[1];
+  statistics.reciprocal_condition = solution.reciprocal_condition;
+  statistics.factorization_bytes = solution.peak_bytes;
+  if (parameterization.uv.empty ())
+    return;
+  const Eigen::Vector2d nowhere =
+      Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
+  const Eigen::Array2d mirror (1.0, disc.finish.facing.turned > 0 ? -1.0 : 1.0);
+  report.parameters.assign (report.statistics.cloud_points, nowhere);
+  for (Index p = 0; p < points.cloud_index.size (); ++p)
+    report.parameters[points.cloud_index[p]] = parameterization.uv[p].array () * mirror;
+  for (const std::array<Index, 2>& duplicate : points.duplicates)
+    report.parameters[duplicate[0]] = report.parameters[duplicate[1]];
+}
+
+void
+reportLoops (const Points& points, const Surface& surface, Report& report)
+{
+  if (const std::vector<Triangle>& seam = surface.orientation_seam; !seam.empty ())
+    addFinding (report, FindingId::ONE_SIDED, points, {seam.front ()[0]}, seam.size ());
+  report.statistics.holes_filled = surface.holes_filled;
+  std::size_t too_deep = 0;
+  const BoundaryLoop* widest = nullptr;
+  for (const BoundaryLoop& loop : surface.doubtful_loops) {
+    const LoopSummary summary = summaryOf (loop, points);
+    const LoopDecision decision{summary.points,
+                                summary.width,
+                                summary.width_spacings,
+                                summary.at,
+                                loop.keep_open,
+                                loop.judgement.probability (),
+                                loop.judgement.is_too_deep};
+    if (decision.is_too_deep && decision.stays_open && decision.probability <= 0.5) {
+      ++too_deep;
+      if (widest == nullptr || loop.width > widest->width)
+        widest = &loop;
+    }
+    report.loop_decisions.push_back (decision);
+  }
+  std::stable_sort (report.loop_decisions.begin (), report.loop_decisions.end (),
+                    [] (const LoopDecision& a, const LoopDecision& b) {
+                      return std::abs (a.probability - 0.5) < std::abs (b.probability - 0.5);
+                    });
+  if (too_deep > 0)
+    addFinding (report, FindingId::DEEP_HOLES, points, {widest->points.front ()}, too_deep,
+                widest->width * points.scale, widest->width / widest->spacing);
+}
 
 Problem
 reportMesh (const Points& points, const std::vector<Triangle>& triangles,

@@ -4,10 +4,9 @@
 
 #include "core/geometry.h"
 #include "core/order_statistics.h"
-#include "floater/domain.h"
+#include "floater/floater_method.h"
 #include "floater/solvers/solver.h"
 #include "floater/weights.h"
-#include "texture/stretch.h"
 
 #include <Eigen/LU>
 
@@ -104,6 +103,76 @@ solveWeights (const MeshPiece& chart, const Weights& weights,
   return uv;
 }
 
+bool
+isLayout (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
+{
+  return isUpright (chart.mesh.triangles, uv) && isSimple (chart.loop, uv);
+}
+
+// Projects the chart, seen from its mean normal.
+std::vector<Eigen::Vector2d>
+project (const MeshPiece& chart)
+{
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero (), middle = Eigen::Vector3d::Zero ();
+  for (const Triangle& t : chart.mesh.triangles)
+    normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
+  for (const Eigen::Vector3d& p : chart.positions)
+    middle += p / static_cast<double> (chart.positions.size ());
+  const TangentFrame frame (normal.normalized ());
+  std::vector<Eigen::Vector2d> uv;
+  uv.reserve (chart.positions.size ());
+  for (const Eigen::Vector3d& p : chart.positions)
+    uv.push_back (frame.project (p - middle));
+  return uv;
+}
+
+// The first valid layout of: the projection; the projection with small defects repaired; a
+// convex-combination map on the circle. Otherwise empty.
+std::vector<Eigen::Vector2d>
+beginLayout (const MeshPiece& chart, const DescentLimits& limits, const RunContext& run)
+{
+  std::vector<Eigen::Vector2d> uv = project (chart);
+  if (isLayout (chart, uv) || (untangle (chart, run, uv) && isLayout (chart, uv)))
+    return uv;
+  if (chart.mesh.triangles.size () > limits.most_on_circle)
+    return {};
+  uv = layOutOnCircle (chart, run);
+  return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
+}
+
+// Lowers the distortion of a layout, unless that raises its stretch; sets its figures.
+void
+relax (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
+       const RunContext& run, ChartLayout& layout)
+{
+  layout.area = rest.area;
+  layout.stretch = meanStretch (chart, layout.uv);
+  std::vector<Eigen::Vector2d> uv = layout.uv;
+  descendDistortion (chart, rest, limits, run, uv);
+  if (!isLayout (chart, uv))
+    return;
+  if (const double stretch = meanStretch (chart, uv); stretch < layout.stretch) {
+    layout.stretch = stretch;
+    layout.uv = std::move (uv);
+  }
+}
+
+// Lays one triangle out by the lengths of its edges.
+void
+layOutTriangle (const MeshPiece& chart, ChartLayout& layout)
+{
+  constexpr double LEAST_HEIGHT_ALONE = 1.0 / 16.0;
+  const Triangle& c = chart.mesh.triangles.front ();
+  const FlatTriangle flat = layFlat (
+      {chart.positions[c[0]], chart.positions[c[1]], chart.positions[c[2]]}, LEAST_HEIGHT_ALONE);
+  layout.uv.resize (3);
+  for (std::size_t i = 0; i < 3; ++i)
+    layout.uv[c[i]] = flat.corners[i];
+  layout.stretch = meanStretch (chart, layout.uv);
+  layout.area = 0.5 * flat.longest * flat.longest *
+                cross (flat.corners[1] - flat.corners[0], flat.corners[2] - flat.corners[0]);
+}
+
 } // namespace
 
 std::vector<Eigen::Vector2d>
@@ -195,83 +264,9 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vect
   return false;
 }
 
-namespace {
-bool
-isLayout (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
-{
-  return isUpright (chart.mesh.triangles, uv) && isSimple (chart.loop, uv);
-}
-
-// Projects the chart, seen from its mean normal.
-std::vector<Eigen::Vector2d>
-project (const MeshPiece& chart)
-{
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero (), middle = Eigen::Vector3d::Zero ();
-  for (const Triangle& t : chart.mesh.triangles)
-    normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
-  for (const Eigen::Vector3d& p : chart.positions)
-    middle += p / static_cast<double> (chart.positions.size ());
-  const TangentFrame frame (normal.normalized ());
-  std::vector<Eigen::Vector2d> uv;
-  uv.reserve (chart.positions.size ());
-  for (const Eigen::Vector3d& p : chart.positions)
-    uv.push_back (frame.project (p - middle));
-  return uv;
-}
-
-// The first valid layout of: the projection; the projection with small defects repaired; a
-// convex-combination map on the circle. Otherwise empty.
-std::vector<Eigen::Vector2d>
-beginLayout (const MeshPiece& chart, const DescentLimits& limits, const RunContext& run)
-{
-  std::vector<Eigen::Vector2d> uv = project (chart);
-  if (isLayout (chart, uv) || (untangle (chart, run, uv) && isLayout (chart, uv)))
-    return uv;
-  if (chart.mesh.triangles.size () > limits.most_on_circle)
-    return {};
-  uv = layOutOnCircle (chart, run);
-  return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
-}
-
-// Lowers the distortion of a layout, unless that raises its stretch; sets its figures.
-void
-relax (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
-       const RunContext& run, ChartLayout& layout)
-{
-  layout.area = rest.area;
-  layout.stretch = meanStretch (chart, layout.uv);
-  std::vector<Eigen::Vector2d> uv = layout.uv;
-  descendDistortion (chart, rest, limits, run, uv);
-  if (!isLayout (chart, uv))
-    return;
-  if (const double stretch = meanStretch (chart, uv); stretch < layout.stretch) {
-    layout.stretch = stretch;
-    layout.uv = std::move (uv);
-  }
-}
-
-// Lays one triangle out by the lengths of its edges.
-void
-layOutTriangle (const MeshPiece& chart, ChartLayout& layout)
-{
-  constexpr double LEAST_HEIGHT_ALONE = 1.0 / 16.0;
-  const Triangle& c = chart.mesh.triangles.front ();
-  const FlatTriangle flat = layFlat (
-      {chart.positions[c[0]], chart.positions[c[1]], chart.positions[c[2]]}, LEAST_HEIGHT_ALONE);
-  layout.uv.resize (3);
-  for (std::size_t i = 0; i < 3; ++i)
-    layout.uv[c[i]] = flat.corners[i];
-  layout.stretch = meanStretch (chart, layout.uv);
-  layout.area = 0.5 * flat.longest * flat.longest *
-                cross (flat.corners[1] - flat.corners[0], flat.corners[2] - flat.corners[0]);
-}
-
-} // namespace
-
 ChartLayout
 layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_triangles,
-             const std::vector<Eigen::Vector3d>& positions, const DescentLimits& limits,
-             const RunContext& run)
+             const Positions& positions, const DescentLimits& limits, const RunContext& run)
 {
   run.poll ();
   ChartLayout layout;
@@ -293,7 +288,7 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
 }
 
 void
-refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+refineLayout (const std::vector<Triangle>& triangles, const Positions& positions,
               const DescentLimits& limits, const RunContext& run, ChartLayout& layout)
 {
   const MeshPiece chart = cutOut (triangles, layout.triangles, positions);

@@ -51,14 +51,13 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vect
 /// \param positions of the points of the mesh
 ChartLayout
 layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart,
-             const std::vector<Eigen::Vector3d>& positions, const DescentLimits& limits,
-             const RunContext& run);
+             const Positions& positions, const DescentLimits& limits, const RunContext& run);
 
 /// Lowers the distortion of a layout for other positions than its own: for the surface with its
 /// noise. Keeps the coordinates if that does not lower its stretch.
 /// \param[in,out] layout with coordinates; its figures are then for these positions
 void
-refineLayout (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector3d>& positions,
+refineLayout (const std::vector<Triangle>& triangles, const Positions& positions,
               const DescentLimits& limits, const RunContext& run, ChartLayout& layout);
 
 } // namespace pcl::floater

@@ -46,7 +46,7 @@ oneMinusCosine (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 class ChartMerger
 {
 public:
-  ChartMerger (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+  ChartMerger (const TriangleMesh& mesh, const Positions& positions,
                const std::vector<Eigen::Vector3d>& area_vectors, const MeshComponents& facets,
                bool halves, const ChartLimits& limits)
       : mesh_ (mesh), facets_ (facets), limits_ (limits), halves_ (halves), charts_ (facets.count),
@@ -279,7 +279,7 @@ private:
 // Moves triangles with two edges on a seam to the chart beyond it where this shortens the seam. Charts
 // stay discs, and none vanishes.
 void
-straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+straightenSeams (const TriangleMesh& mesh, const Positions& positions,
                  const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
                  const RunContext& run, MeshComponents& charts)
 {
@@ -347,7 +347,7 @@ straightenSeams (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& p
 } // namespace
 
 MeshComponents
-findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, bool halves,
+findCharts (const TriangleMesh& mesh, const Positions& positions, bool halves,
             const ChartLimits& limits, const RunContext& run)
 {
   const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);

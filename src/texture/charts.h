@@ -66,15 +66,14 @@ struct ChartLimits
 };
 
 /// Area vectors of all triangles: twice the area times the unit normal. O(n).
-std::vector<Eigen::Vector3d>
-areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const RunContext& run);
+Positions
+areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunContext& run);
 
 /// Joins neighbouring triangles to facets: discs, at most as large as ChartLimits::most_in_facet
 /// and flatter than ChartLimits::facet_deviation. Few triangles stay alone. O(n), one thread: 0.2
 /// microseconds per triangle.
 MeshComponents
-growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+growFacets (const TriangleMesh& mesh, const Positions& positions,
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run);
 
@@ -87,7 +86,7 @@ growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
 /// a million triangles.
 /// \param halves the mesh is cut in two, if it can be, whatever the deviation of the charts
 MeshComponents
-findCharts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions, bool halves,
+findCharts (const TriangleMesh& mesh, const Positions& positions, bool halves,
             const ChartLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

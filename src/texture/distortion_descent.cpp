@@ -5,7 +5,6 @@
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/order_statistics.h"
-#include "texture/stretch.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>

@@ -7,9 +7,8 @@
 #include <limits>
 
 namespace pcl::floater {
-std::vector<Eigen::Vector3d>
-areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const RunContext& run)
+Positions
+areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
   std::vector<Eigen::Vector3d> vectors (mesh.triangles.size ());
   parallelPoints (run, vectors.size (),
@@ -18,7 +17,7 @@ areaVectors (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
 }
 
 MeshComponents
-growFacets (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+growFacets (const TriangleMesh& mesh, const Positions& positions,
             const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run)
 {

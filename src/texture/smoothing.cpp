@@ -37,16 +37,16 @@ struct Bends
 struct Smoother
 {
   const TriangleMesh& mesh;
-  const std::vector<Eigen::Vector3d>& original; // positions
+  const Positions& original; // positions
   const SmoothingLimits& limits;
   const RunContext& run;
   MeshRings rings{mesh};
   std::vector<Bends> bends_at{}; // per point
 
-  std::vector<Eigen::Vector3d> smoothed ()
+  Positions smoothed ()
   {
     bends_at.resize (original.size ());
-    std::vector<Eigen::Vector3d> current = original;
+    Positions current = original;
     std::vector<std::uint8_t> is_noisy (original.size (), 1);
     measureBends (current, is_noisy);
     is_noisy = findNoise ();
@@ -54,7 +54,7 @@ struct Smoother
       return current;
     widen (is_noisy);
     const std::vector<double> reach = findReach ();
-    std::vector<Eigen::Vector3d> next = current;
+    Positions next = current;
     for (int round = 0; round < limits.rounds; ++round) {
       measureBends (current, is_noisy);
       std::atomic<bool> has_moved{false};
@@ -88,8 +88,7 @@ private:
 
   // Sums the bends of marked vertices: the angles between the normals at their edges, outwards where
   // the surface is convex.
-  void measureBends (const std::vector<Eigen::Vector3d>& positions,
-                     const std::vector<std::uint8_t>& is_marked)
+  void measureBends (const Positions& positions, const std::vector<std::uint8_t>& is_marked)
   {
     const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
     visit ([&] (Index p) {
@@ -169,7 +168,7 @@ private:
 
   // The mean of the neighbours; at the boundary, of those along it. A vertex of one triangle would
   // get between these, and moves with them instead.
-  Eigen::Vector3d targetOf (const std::vector<Eigen::Vector3d>& positions, Index p) const
+  Eigen::Vector3d targetOf (const Positions& positions, Index p) const
   {
     const Eigen::Vector3d mean = rings.meanAround (positions, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
@@ -180,9 +179,9 @@ private:
 
 } // namespace
 
-std::vector<Eigen::Vector3d>
-smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const SmoothingLimits& limits, const RunContext& run)
+Positions
+smoothNoise (const TriangleMesh& mesh, const Positions& positions, const SmoothingLimits& limits,
+             const RunContext& run)
 {
   return Smoother{mesh, positions, limits, run}.smoothed ();
 }

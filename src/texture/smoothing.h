@@ -39,8 +39,8 @@ struct SmoothingLimits
 /// noisy one, normals are random, and every bump becomes a chart. O(n) for each round; one if there
 /// is no noise.
 /// \return positions per point; other vertices are unchanged
-std::vector<Eigen::Vector3d>
-smoothNoise (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const SmoothingLimits& limits, const RunContext& run);
+Positions
+smoothNoise (const TriangleMesh& mesh, const Positions& positions, const SmoothingLimits& limits,
+             const RunContext& run);
 
 } // namespace pcl::floater

@@ -96,13 +96,11 @@ private:
   void continueSurfaces ()
   {
     continuations_.resize (3 * view_.triangles.size ());
-    parallelRanges (run_, view_.triangle_of.size (), [&] (std::size_t first, std::size_t last) {
-      std::vector<Index> fan, around;
-      std::vector<Eigen::Vector2d> places;
-      for (auto p = static_cast<Index> (first); p < last; ++p)
-        if (view_.triangle_of[p] != NONE)
-          continueAround (p, fan, around, places);
-    });
+    parallelPoints<std::vector<Index>, std::vector<Index>, std::vector<Eigen::Vector2d>> (
+        run_, view_.triangle_of.size (), [&] (Index p, auto&... scratch) {
+          if (view_.triangle_of[p] != NONE)
+            continueAround (p, scratch...);
+        });
   }
 
   // All edges that leave p, each with the triangle of p on its opposite side.
@@ -164,17 +162,15 @@ private:
                                                            rays_.depths[view_.to (e)])),
                              0.0F});
         }
-    parallelRanges (run_, edges_.size (), [&] (std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        StepEdge& edge = edges_[i];
-        const double change = changeOf (edge.edge);
-        double least = std::numeric_limits<double>::infinity ();
-        for (const Extension& c : continuationsOf (edge.edge))
-          if (c.weight > 0.0F)
-            least = std::min (least, std::abs (change - static_cast<double> (c.change)) /
-                                         static_cast<double> (c.weight));
-        edge.deviation = static_cast<float> (least);
-      }
+    parallelPoints (run_, edges_.size (), [&] (Index i) {
+      StepEdge& edge = edges_[i];
+      const double change = changeOf (edge.edge);
+      double least = std::numeric_limits<double>::infinity ();
+      for (const Extension& c : continuationsOf (edge.edge))
+        if (c.weight > 0.0F)
+          least = std::min (least, std::abs (change - static_cast<double> (c.change)) /
+                                       static_cast<double> (c.weight));
+      edge.deviation = static_cast<float> (least);
     });
     const auto isNearer = [] (const StepEdge& a, const StepEdge& b) {
       return a.depth != b.depth ? a.depth < b.depth : numberOf (a.edge) < numberOf (b.edge);

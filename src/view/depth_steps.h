@@ -30,10 +30,9 @@ struct StepLimits
             ///< degrees, and returns hardly any light ...
   double continued_grazing = 1.25; ///< ... `continued` for these: only a plane may be seen so flat.
                                    ///< Rings on three things at three distances look like a slope
-  double most_weight =
-      20.0;            ///< largest sum of the weights of an extrapolation. It is 3 on a raster,
-                       ///< and up to 7 where rays are lost; from three points of one ring to
-                       ///< the next ring it is thousands, and tells nothing
+  /// largest sum of the weights of an extrapolation. It is 3 on a raster, and up to 7 where rays
+  /// are lost; from three points of one ring to the next ring it is thousands, and tells nothing
+  double most_weight = 20.0;
   double joint = 10.0; ///< where two surfaces meet: length of an edge over the length to which
                        ///< either is extrapolated; above, it is a step. A surface seen at less
                        ///< than 6 degrees returns hardly any light, and is sampled ten times

@@ -21,8 +21,7 @@ isLineBetween (const std::vector<Place>& places, std::size_t first)
       const Place along = places[i] - places[k];
       bool is_left = true, is_right = true; // the first ones
       for (std::size_t j = 0; j < places.size (); ++j) {
-        const Place offset = places[j] - places[k];
-        const double left = along.x () * offset.y () - along.y () * offset.x ();
+        const double left = cross (along, places[j] - places[k]);
         const double side = j < first ? left : -left;
         is_left = is_left && (j == i || j == k || side > 0.0);
         is_right = is_right && (j == i || j == k || side < 0.0);
@@ -57,8 +56,8 @@ struct Outlines
 };
 
 Outlines
-outlinesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
-            const Viewpoint& viewpoint, std::size_t every, const OutlineLimits& limits)
+outlinesOf (const Positions& positions, const RayPatch& patch, const Viewpoint& viewpoint,
+            std::size_t every, const OutlineLimits& limits)
 {
   Outlines found;
   if (patch.size () < limits.rays)
@@ -120,7 +119,7 @@ struct Votes
 };
 
 Votes
-takeVotes (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
+takeVotes (const Positions& positions, const std::vector<RayPatch>& patches,
            const Viewpoint& viewpoint, std::size_t every, const OutlineLimits& limits,
            const RunContext& run)
 {
@@ -140,9 +139,8 @@ takeVotes (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayP
 } // namespace
 
 bool
-areOutlinesClear (const std::vector<Eigen::Vector3d>& positions,
-                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                  const OutlineLimits& limits, const RunContext& run)
+areOutlinesClear (const Positions& positions, const std::vector<RayPatch>& patches,
+                  const Viewpoint& viewpoint, const OutlineLimits& limits, const RunContext& run)
 {
   Votes votes = takeVotes (positions, patches, viewpoint, limits.every, limits, run);
   if (votes.sum > 0.0 && !votes.areClear ()) {

@@ -29,8 +29,7 @@ struct OutlineLimits
 /// by two standard deviations of chance, so four at least. If they are more, but not by enough, more
 /// patches are taken, and all of their rays. O(patches * points of a patch squared).
 bool
-areOutlinesClear (const std::vector<Eigen::Vector3d>& positions,
-                  const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                  const OutlineLimits& limits, const RunContext& run);
+areOutlinesClear (const Positions& positions, const std::vector<RayPatch>& patches,
+                  const Viewpoint& viewpoint, const OutlineLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

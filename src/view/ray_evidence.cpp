@@ -27,27 +27,6 @@
 #endif
 
 namespace pcl::floater {
-std::vector<RayPatch>
-findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-                const EvidenceLimits& limits, const RunContext& run)
-{
-  const std::size_t n = positions.size ();
-  std::vector<Eigen::Vector3d> directions (n);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p)
-      directions[p] = rayTo (positions[p], viewpoint).direction;
-  });
-  const KdTree tree (directions, run, PointOrder::ALONG_CURVE);
-  std::vector<RayPatch> patches (std::min (limits.patches, n));
-  parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    std::vector<Neighbor> found;
-    tree.nearest (directions[(2 * k + 1) * n / (2 * patches.size ())], limits.patch_points, found);
-    for (const Neighbor& neighbor : found)
-      patches[k].push_back (neighbor.point);
-  });
-  return patches;
-}
-
 namespace {
 // Numbers that are taken at once.
 using Floats = float __attribute__ ((vector_size (32)));
@@ -131,8 +110,8 @@ struct PatchRays
                                  // nearest: in a scanner's raster, in the next row; 0 if none
   std::vector<std::uint32_t> at; // the nearest, in the patch; the ray itself if there is none
 
-  PatchRays (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
-             const Viewpoint& viewpoint, bool with_across)
+  PatchRays (const Positions& positions, const RayPatch& patch, const Viewpoint& viewpoint,
+             bool with_across)
       : judged (static_cast<std::uint32_t> (patch.size () / 2)), x (patch.size () + LANES),
         y (x.size ()), z (x.size ()), nearest (x.size ()), second (x.size ()), across (x.size ()),
         at (x.size ())
@@ -209,62 +188,6 @@ private:
   }
 };
 
-} // namespace
-
-RayEvidence
-findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run)
-{
-  std::vector<RayEvidence> found (patches.size ());
-  parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    const RayPatch& patch = patches[k];
-    const PatchRays rays (positions, patch, viewpoint, false);
-    RayEvidence& evidence = found[k];
-    evidence.judged = rays.judged;
-    std::vector<double> between_points;
-    for (std::size_t i = 0; i < evidence.judged; ++i) {
-      evidence.near += static_cast<double> (rays.nearest[i]) <
-                               limits.near_ratio * static_cast<double> (rays.second[i])
-                           ? 1
-                           : 0;
-      between_points.push_back ((positions[patch[rays.at[i]]] - positions[patch[i]]).norm ());
-    }
-    evidence.ray_spread = rays.spreadOf (rays.nearest);
-    evidence.point_spread = spreadOf (between_points);
-  });
-  RayEvidence evidence;
-  for (const RayEvidence& patch : found) {
-    evidence.judged += patch.judged;
-    evidence.near += patch.near;
-    evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
-    evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
-  }
-  return evidence;
-}
-
-double
-findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
-               const Viewpoint& viewpoint, bool with_rows, const RunContext& run)
-{
-  std::vector<double> of_rays (patches.size ()), of_rows (patches.size ());
-  parallelTasks (run, patches.size (), [&] (std::size_t k) {
-    const PatchRays rays (positions, patches[k], viewpoint, with_rows);
-    of_rays[k] = rays.spreadOf (rays.nearest);
-    of_rows[k] = with_rows ? rays.spreadOf (rays.across) : 0.0;
-  });
-  return meanOver (of_rays, viewpoint) + (with_rows ? meanOver (of_rows, viewpoint) : 0.0);
-}
-
-bool
-isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
-{
-  return evidence.nearShare () <= limits.near_share &&
-         evidence.point_spread >= limits.least_spread &&
-         evidence.ray_spread <= limits.regularity * evidence.point_spread;
-}
-
-namespace {
 // Of a ray: distances to its nearest ones, and to the one of limits.density_rank; in space, that of
 // the point of this rank.
 struct RayDensity
@@ -274,8 +197,8 @@ struct RayDensity
 };
 
 std::vector<RayDensity>
-densitiesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patch,
-             const Viewpoint& viewpoint, const EvidenceLimits& limits)
+densitiesOf (const Positions& positions, const RayPatch& patch, const Viewpoint& viewpoint,
+             const EvidenceLimits& limits)
 {
   std::vector<Ray> rays;
   for (const Index p : patch)
@@ -313,10 +236,81 @@ densitiesOf (const std::vector<Eigen::Vector3d>& positions, const RayPatch& patc
 
 } // namespace
 
+std::vector<RayPatch>
+findRayPatches (const Positions& positions, const Viewpoint& viewpoint,
+                const EvidenceLimits& limits, const RunContext& run)
+{
+  const std::size_t n = positions.size ();
+  std::vector<Eigen::Vector3d> directions (n);
+  parallelPoints (run, n,
+                  [&] (Index p) { directions[p] = rayTo (positions[p], viewpoint).direction; });
+  const KdTree tree (directions, run, PointOrder::ALONG_CURVE);
+  std::vector<RayPatch> patches (std::min (limits.patches, n));
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    std::vector<Neighbor> found;
+    tree.nearest (directions[(2 * k + 1) * n / (2 * patches.size ())], limits.patch_points, found);
+    for (const Neighbor& neighbor : found)
+      patches[k].push_back (neighbor.point);
+  });
+  return patches;
+}
+
+RayEvidence
+findRayEvidence (const Positions& positions, const std::vector<RayPatch>& patches,
+                 const Viewpoint& viewpoint, const EvidenceLimits& limits, const RunContext& run)
+{
+  std::vector<RayEvidence> found (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    const RayPatch& patch = patches[k];
+    const PatchRays rays (positions, patch, viewpoint, false);
+    RayEvidence& evidence = found[k];
+    evidence.judged = rays.judged;
+    std::vector<double> between_points;
+    for (std::size_t i = 0; i < evidence.judged; ++i) {
+      evidence.near += static_cast<double> (rays.nearest[i]) <
+                               limits.near_ratio * static_cast<double> (rays.second[i])
+                           ? 1
+                           : 0;
+      between_points.push_back ((positions[patch[rays.at[i]]] - positions[patch[i]]).norm ());
+    }
+    evidence.ray_spread = rays.spreadOf (rays.nearest);
+    evidence.point_spread = spreadOf (between_points);
+  });
+  RayEvidence evidence;
+  for (const RayEvidence& patch : found) {
+    evidence.judged += patch.judged;
+    evidence.near += patch.near;
+    evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
+    evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
+  }
+  return evidence;
+}
+
+double
+findRaySpread (const Positions& positions, const std::vector<RayPatch>& patches,
+               const Viewpoint& viewpoint, bool with_rows, const RunContext& run)
+{
+  std::vector<double> of_rays (patches.size ()), of_rows (patches.size ());
+  parallelTasks (run, patches.size (), [&] (std::size_t k) {
+    const PatchRays rays (positions, patches[k], viewpoint, with_rows);
+    of_rays[k] = rays.spreadOf (rays.nearest);
+    of_rows[k] = with_rows ? rays.spreadOf (rays.across) : 0.0;
+  });
+  return meanOver (of_rays, viewpoint) + (with_rows ? meanOver (of_rows, viewpoint) : 0.0);
+}
+
+bool
+isSeenFromThere (const RayEvidence& evidence, const EvidenceLimits& limits)
+{
+  return evidence.nearShare () <= limits.near_share &&
+         evidence.point_spread >= limits.least_spread &&
+         evidence.ray_spread <= limits.regularity * evidence.point_spread;
+}
+
 DensityEvidence
-findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
-                     const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                     const EvidenceLimits& limits, const RunContext& run)
+findDensityEvidence (const Positions& positions, const std::vector<RayPatch>& patches,
+                     const Viewpoint& viewpoint, const EvidenceLimits& limits,
+                     const RunContext& run)
 {
   std::vector<std::vector<RayDensity>> of_patch (patches.size ());
   parallelTasks (run, patches.size (), [&] (std::size_t k) {
@@ -347,7 +341,7 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
 }
 
 bool
-explainsDensity (const std::vector<Eigen::Vector3d>& positions, const DensityEvidence& found,
+explainsDensity (const Positions& positions, const DensityEvidence& found,
                  const Viewpoint& viewpoint, const EvidenceLimits& limits, const RunContext& run)
 {
   const double left = found.left (limits);
@@ -373,7 +367,7 @@ explainsDensity (const std::vector<Eigen::Vector3d>& positions, const DensityEvi
 }
 
 bool
-looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+looksToAllSides (const Positions& positions, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits)
 {
   constexpr std::size_t DIRECTIONS = 200;

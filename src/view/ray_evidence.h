@@ -36,13 +36,11 @@ struct EvidenceLimits
   std::size_t density_rank = 8; ///< density is measured by the distance to the neighbour of this
       ///< rank: lost rays, rings that are uneven, and rows of two distances
       ///< hardly change it
-  double density_regularity =
-      0.5; ///< `regularity` for these, over the whole cloud. In 80 generated
-           ///< clouds, scans have up to 0.47; others that hide as little from
-           ///< the origin have 0.59 and more
-  double least_density_spread =
-      0.2;                      ///< `least_spread` for these. Points on a hexagonal raster have
-                                ///< 0.15
+  /// `regularity` for these, over the whole cloud. In 80 generated clouds, scans have up to 0.47;
+  /// others that hide as little from the origin have 0.59 and more
+  double density_regularity = 0.5;
+  /// `least_spread` for these. Points on a hexagonal raster have 0.15
+  double least_density_spread = 0.2;
   double crossing_share = 0.05; ///< largest share of near rays for this evidence. Several scans of
                                 ///< one place have 0.07 and more; a scan from a moving car, 0.03
   double hidden_share = 0.004;  ///< largest share of rays beside which one goes far beyond or ends
@@ -58,12 +56,11 @@ struct EvidenceLimits
   double beside = 0.25; ///< of the median depth: distance of six places around the viewpoint from
                         ///< which the densities must not be more alike ...
   double less_beside = 0.7; ///< ... than this factor, or at all if too much is hidden, ...
-  double even_density =
-      0.2; ///< ... unless their spread is below this at the viewpoint, and little is
-           ///< hidden. A quarter of the depth nearer to the right place, generated
-           ///< scans have a factor of 0.4 to 0.77; around the right place, 0.89 and
-           ///< more; around that of 40 scans from a car, 1.2 and more.
-           ///< Around one of several lidars whose scans are merged, 0.73 to 1.0
+  /// ... unless their spread is below this at the viewpoint, and little is hidden. A quarter of the
+  /// depth nearer to the right place, generated scans have a factor of 0.4 to 0.77; around the
+  /// right place, 0.89 and more; around that of 40 scans from a car, 1.2 and more. Around one of
+  /// several lidars whose scans are merged, 0.73 to 1.0
+  double even_density = 0.2;
   std::size_t patches_beside = 32; ///< for this comparison
   double all_sides =
       20.0; ///< degrees; if there is a ray in each direction to this angle, the points
@@ -88,15 +85,14 @@ struct RayEvidence
 
 /// Patches of near rays around points that are spread evenly over their order. O(n).
 std::vector<RayPatch>
-findRayPatches (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+findRayPatches (const Positions& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run);
 
 /// Evidence from the rays of the patches, which may come from another viewpoint nearby. O(patches *
 /// points of a patch squared).
 RayEvidence
-findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
-                 const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                 const EvidenceLimits& limits, const RunContext& run);
+findRayEvidence (const Positions& positions, const std::vector<RayPatch>& patches,
+                 const Viewpoint& viewpoint, const EvidenceLimits& limits, const RunContext& run);
 
 /// What a search lowers: RayEvidence::ray_spread, to which `with_rows` adds the spread of the distances
 /// to the nearest ray across the direction of the nearest, to the next row of a scanner. For rays from
@@ -104,7 +100,7 @@ findRayEvidence (const std::vector<Eigen::Vector3d>& positions,
 /// viewpoint it falls all the way, while the share of near rays first rises where outlines begin to
 /// overlap. Same cost.
 double
-findRaySpread (const std::vector<Eigen::Vector3d>& positions, const std::vector<RayPatch>& patches,
+findRaySpread (const Positions& positions, const std::vector<RayPatch>& patches,
                const Viewpoint& viewpoint, bool with_rows, const RunContext& run);
 
 /// Whether the evidence shows that the cloud was seen from the viewpoint.
@@ -131,9 +127,9 @@ struct DensityEvidence
 /// O(patches * points of a patch squared).
 /// \param viewpoint not far away
 DensityEvidence
-findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
-                     const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                     const EvidenceLimits& limits, const RunContext& run);
+findDensityEvidence (const Positions& positions, const std::vector<RayPatch>& patches,
+                     const Viewpoint& viewpoint, const EvidenceLimits& limits,
+                     const RunContext& run);
 
 /// Whether the viewpoint explains the density of the points: that of their rays is the same
 /// everywhere, unlike that of the points; and hardly any point hides others, or the density is
@@ -141,12 +137,12 @@ findDensityEvidence (const std::vector<Eigen::Vector3d>& positions,
 /// points. O(1) for most places that do not; else O(n log n).
 /// \param found at the viewpoint, which is not far away
 bool
-explainsDensity (const std::vector<Eigen::Vector3d>& positions, const DensityEvidence& found,
+explainsDensity (const Positions& positions, const DensityEvidence& found,
                  const Viewpoint& viewpoint, const EvidenceLimits& limits, const RunContext& run);
 
 /// Whether there are rays in all directions.
 bool
-looksToAllSides (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
+looksToAllSides (const Positions& positions, const Viewpoint& viewpoint,
                  const EvidenceLimits& limits);
 
 } // namespace pcl::floater

@@ -13,8 +13,8 @@
 
 namespace pcl::floater {
 Eigen::Vector3d
-emptyDirection (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-                std::size_t tries, double& cosine)
+emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
+                double& cosine)
 {
   constexpr std::size_t COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
@@ -53,8 +53,7 @@ rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint)
 }
 
 Rays
-makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-          const RunContext& run)
+makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunContext& run)
 {
   const std::size_t n = positions.size ();
   Rays rays;
@@ -65,14 +64,6 @@ makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpo
   rays.depths.resize (n);
   rays.levels.resize (n);
   rays.places.resize (n);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const Ray ray = rayTo (positions[p], viewpoint);
-      rays.directions[p] = ray.direction;
-      rays.depths[p] = ray.depth;
-      rays.levels[p] = viewpoint.is_far ? ray.depth : 1.0 / ray.depth;
-    }
-  });
   // Seen from the sensor, x to y is anti-clockwise: the frame is right-handed about a vector
   // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
   constexpr std::size_t TRIES = 2000; // finds cones of 5 degrees: the tear of the plane is small
@@ -80,16 +71,16 @@ makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpo
   const Eigen::Vector3d pole = viewpoint.is_far
                                    ? Eigen::Vector3d (-viewpoint.place)
                                    : emptyDirection (positions, viewpoint, TRIES, cosine);
-  const Eigen::Vector3d x = pole.unitOrthogonal ();
-  const Eigen::Vector3d y = pole.cross (x);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const Eigen::Vector3d& direction = rays.directions[p];
-      const double factor = viewpoint.is_far       ? 1.0
-                            : rays.depths[p] > 0.0 ? 1.0 / (1.0 - direction.dot (pole))
-                                                   : std::numeric_limits<double>::quiet_NaN ();
-      rays.places[p] = factor * Eigen::Vector2d (direction.dot (x), direction.dot (y));
-    }
+  const Eigen::Vector3d x = pole.unitOrthogonal (), y = pole.cross (x);
+  parallelPoints (run, n, [&] (Index p) {
+    const auto [direction, depth] = rayTo (positions[p], viewpoint);
+    rays.directions[p] = direction;
+    rays.depths[p] = depth;
+    rays.levels[p] = viewpoint.is_far ? depth : 1.0 / depth;
+    const double factor = viewpoint.is_far ? 1.0
+                          : depth > 0.0    ? 1.0 / (1.0 - direction.dot (pole))
+                                           : std::numeric_limits<double>::quiet_NaN ();
+    rays.places[p] = factor * Eigen::Vector2d (direction.dot (x), direction.dot (y));
   });
   return rays;
 }

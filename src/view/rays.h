@@ -44,8 +44,8 @@ rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint);
 /// \param positions some 2000 of them are looked at
 /// \param[out] cosine of the angle to the nearest ray
 Eigen::Vector3d
-emptyDirection (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-                std::size_t tries, double& cosine);
+emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
+                double& cosine);
 
 /// The rays to all points.
 struct Rays
@@ -72,7 +72,6 @@ struct Rays
 
 /// O(n).
 Rays
-makeRays (const std::vector<Eigen::Vector3d>& positions, const Viewpoint& viewpoint,
-          const RunContext& run);
+makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunContext& run);
 
 } // namespace pcl::floater

@@ -39,7 +39,7 @@ struct ViewFlipLimits
 /// threads.
 /// \return number of flips
 std::size_t
-flipInView (TriangleMesh& mesh, const Rays& rays, const std::vector<Eigen::Vector3d>& positions,
+flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions,
             const ViewFlipLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

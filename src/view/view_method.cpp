@@ -110,7 +110,7 @@ Sight
 sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
            const EvidenceLimits& limits, const RunContext& run)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const Positions& positions = points.positions;
   const bool are_enough = positions.size () >= limits.fewest_patches * limits.patch_points;
   if ((!are_enough && !is_told) || looksToAllSides (positions, viewpoint, limits))
     return Sight::NO;

@@ -27,16 +27,13 @@ struct ViewLimits
   double longest_edge = 16.0;     ///< local spacings. Of 25 longer edges in 24 generated and 3 real
                                   ///< scans, 22 bridged what is no surface; of edges of 10 to 16
                                   ///< only half did
-  double largest_unused_share =
-      0.15; ///< of the points; if more are in no triangle, at depth steps, the
-            ///< cloud is not a scan of surfaces from there. Of a scan by 16
-            ///< rings, 0.06 are: things as high as one ring are no surface;
-            ///< of scans from a moving car, up to 0.10; of a raster of heights
-            ///< with missing ones, 0.2
-  double largest_unused_in_all =
-      0.25; ///< the same, of all unused points, also those alone in gaps.
-            ///< Measured: at most 0.15 in generated scans, 0.21 in a
-            ///< real one of 32 rings; 0.37 in profiles far apart
+  /// of the points; if more are in no triangle, at depth steps, the cloud is not a scan of surfaces
+  /// from there. Of a scan by 16 rings, 0.06 are: things as high as one ring are no surface; of
+  /// scans from a moving car, up to 0.10; of a raster of heights with missing ones, 0.2
+  double largest_unused_share = 0.15;
+  /// the same, of all unused points, also those alone in gaps. Measured: at most 0.15 in generated
+  /// scans, 0.21 in a real one of 32 rings; 0.37 in profiles far apart
+  double largest_unused_in_all = 0.25;
   double largest_unused_if_told =
       0.01; ///< the same if only the file or outlines tell the viewpoint. Scans from
             ///< several places, of which it tells one, have 0.013 to 0.035

@@ -51,6 +51,19 @@ struct SearchLimits
   EvidenceExcess early{2.0, 100.0}, early_from_far{2.0, 5.0}, late{1.4, 2.0};
 };
 
+/// Whether points lie in rows, as those of a line scanner.
+struct RowEvidence
+{
+  double share = 0.0; ///< share of points between their two nearest neighbours, on opposite sides
+  Eigen::Vector3d across = Eigen::Vector3d::Zero (); ///< unit vector across the planes of the rows
+  bool are_straight = true; ///< nearly all have one direction, so their planes are undetermined
+};
+
+/// \param row_of neighbours of a point, nearest first
+/// \param count number of tested points, spread evenly over their order. O(count).
+RowEvidence
+findRows (const Points& points, const RowOf& row_of, std::size_t count);
+
 /// Why a viewpoint is searched.
 enum class SearchReason
 {

@@ -58,9 +58,8 @@ struct Boundary
 /// \return disjoint clusters of points, ascending in each; the largest cluster first, of equally
 ///         large ones that with the smallest point
 std::vector<std::vector<Index>>
-clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
-                       const std::vector<Index>& boundary_points, double tolerance, int k,
-                       const RunContext& run);
+clusterBoundaryPoints (const Positions& positions, const std::vector<Index>& boundary_points,
+                       double tolerance, int k, const RunContext& run);
 
 /// Splits a cluster into two connected segments with common ends, orders each of them between its
 /// ends by the univariate Floater parameterization (reciprocal distance weights), and joins them to
@@ -77,7 +76,7 @@ clusterBoundaryPoints (const std::vector<Eigen::Vector3d>& positions,
 /// \return every point of the cluster once, in order; empty if the cluster has fewer than 4 points,
 ///         if two of them coincide, or if the system of a segment is singular
 std::vector<Index>
-twoSegmentLoop (const std::vector<Eigen::Vector3d>& positions, const std::vector<Index>& cluster,
+twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
                 const RunContext& run, const LoopLimits& limits = {});
 
 /// The user's loop. Duplicates are replaced by the points that stand for them.

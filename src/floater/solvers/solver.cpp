@@ -2,61 +2,263 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/solvers/solver.h"
 
-#include "floater/solvers/solver_parts.h"
+#include "core/parallel.h"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/IterativeLinearSolvers>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/cuthill_mckee_ordering.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <mutex>
+#include <new>
 #include <sstream>
 #include <utility>
 
 namespace pcl::floater {
-LinearSystem
-assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
-                const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
-                const std::vector<std::uint8_t>& reachable, std::size_t most_entries)
+namespace {
+// The residual of one coordinate, computed from the matrix itself.
+struct Residual
 {
-  LinearSystem system;
-  std::vector<Index> place_in_loop (neighbors.rows (), NONE), unknown_of_point = place_in_loop;
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    place_in_loop[loop[i]] = static_cast<Index> (i);
-  for (std::size_t p = 0; p < neighbors.rows (); ++p)
-    if (place_in_loop[p] == NONE && reachable[p] != 0) {
-      unknown_of_point[p] = static_cast<Index> (system.point_of_unknown.size ());
-      system.point_of_unknown.push_back (static_cast<Index> (p));
+  Eigen::VectorXd rest;  // b - A u
+  double rhs = 0.0;      // |b|
+  double rounding = 0.0; // bound of the rounding error of |b - A u|: 4 eps | |A| |u| + |b| |
+
+  // The norm at which an iteration is done: that of the tolerance, or as small as double precision
+  // lets it be. Storing u with 16 digits alone gives a large system a relative one above 1e-15.
+  double target (double tolerance) const { return std::max (tolerance * rhs, rounding); }
+};
+
+// O(entries).
+Residual
+measureResidual (const LinearSystem& system, Eigen::Index side,
+                 const Eigen::Ref<const Eigen::VectorXd>& solution)
+{
+  constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon ();
+  Residual residual{system.rhs.col (side), system.rhs.col (side).norm (), 0.0};
+  Eigen::VectorXd magnitude = residual.rest.cwiseAbs ();
+  for (Eigen::Index i = 0; i < system.matrix.rows (); ++i)
+    for (SystemMatrix::InnerIterator entry (system.matrix, i); entry; ++entry) {
+      const double term = entry.value () * solution[entry.col ()];
+      residual.rest[i] -= term;
+      magnitude[i] += std::abs (term);
     }
-  const auto unknowns = static_cast<Eigen::Index> (system.point_of_unknown.size ());
-  std::size_t entries = 0;
-  system.matrix.resize (unknowns, unknowns);
-  system.matrix.reserve (unknowns + static_cast<Eigen::Index> (neighbors.ids.size ()));
-  system.rhs.setZero (unknowns, 2);
-  std::vector<std::pair<Eigen::Index, double>> row;
-  for (Eigen::Index i = 0; i < unknowns; ++i) {
-    row.assign (1, {i, 0.0});
-    const Index p = system.point_of_unknown[static_cast<std::size_t> (i)];
-    for (std::size_t entry = neighbors.offsets[p]; entry < neighbors.offsets[p + 1]; ++entry) {
-      const Index q = neighbors.ids[entry];
-      const double weight = weights[entry];
-      if (unknown_of_point[q] != NONE)
-        row.emplace_back (unknown_of_point[q], -weight);
-      else if (place_in_loop[q] != NONE)
-        system.rhs.row (i) += weight * loop_uv[place_in_loop[q]].transpose ();
-      else
-        continue;
-      row.front ().second += weight;
-    }
-    requireCountable (entries += row.size (), most_entries, "the linear system",
-                      "use fewer points or fewer neighbours, or make a surface instead of a disc");
-    std::sort (row.begin (), row.end ());
-    system.matrix.startVec (i);
-    for (const auto& [column, value] : row)
-      system.matrix.insertBack (i, column) = value;
-  }
-  system.matrix.finalize ();
-  return system;
+  residual.rounding = ROUNDING * magnitude.norm ();
+  return residual;
 }
 
-namespace {
+using Order = Eigen::PermutationMatrix<Eigen::Dynamic>;
+
+// Calls METIS with a state of rand () of its own.
+int
+callMetis (cholmod_sparse& pattern, int* order, cholmod_common& common)
+{
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock (mutex);
+  std::array<char, 128> state{}; // as many bytes as rand () has in the beginning
+  char* const before = initstate (1, state.data (), state.size ());
+  constexpr int POSTORDER = 1;
+  const int done = cholmod_metis (&pattern, nullptr, 0, POSTORDER, order, &common);
+  setstate (before);
+  return done;
+}
+
+// Approximate minimum degree (Amestoy, Davis and Duff 1996), or nested dissection by METIS (Karypis
+// and Kumar 1998).
+Order
+orderByCholmod (const SystemMatrix& symmetric, Ordering ordering)
+{
+  Order order (symmetric.rows ());
+  cholmod_sparse pattern = Eigen::viewAsCholmod (symmetric.selfadjointView<Eigen::Lower> ());
+  cholmod_common common{};
+  cholmod_start (&common);
+  common.print = 0;
+  const int done = ordering == Ordering::METIS
+                       ? callMetis (pattern, order.indices ().data (), common)
+                       : cholmod_amd (&pattern, nullptr, 0, order.indices ().data (), &common);
+  cholmod_finish (&common);
+  if (done == 0)
+    throw std::bad_alloc (); // the pattern is valid; METIS does not tell what it lacks
+  return order;
+}
+
+// Small bandwidth (Cuthill and McKee 1969; George 1971).
+Order
+reverseCuthillMckee (const SystemMatrix& symmetric)
+{
+  using Color = boost::property<boost::vertex_color_t, boost::default_color_type>;
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, Color>;
+  Graph graph (static_cast<std::size_t> (symmetric.rows ()));
+  for (int row = 0; row < symmetric.rows (); ++row)
+    for (SystemMatrix::InnerIterator entry (symmetric, row); entry && entry.col () < row; ++entry)
+      boost::add_edge (static_cast<std::size_t> (row), static_cast<std::size_t> (entry.col ()),
+                       graph);
+  Order order (symmetric.rows ());
+  int* const end = order.indices ().data () + order.size ();
+  boost::cuthill_mckee_ordering (graph, std::make_reverse_iterator (end),
+                                 boost::get (boost::vertex_color, graph),
+                                 boost::make_degree_map (graph));
+  return order;
+}
+
+// An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T.
+// indices () [i] is the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow
+// the elimination tree. METIS draws from rand (), of which it gets a state of its own; another
+// thread that draws meanwhile changes the order, so that only one thread is in METIS at a time.
+// \param ordering AMD, METIS or REVERSE_CUTHILL_MCKEE
+// \throws std::bad_alloc
+Order
+orderUnknowns (const SystemMatrix& matrix, Ordering ordering)
+{
+  const SystemMatrix symmetric = matrix + SystemMatrix (matrix.transpose ());
+  return ordering == Ordering::REVERSE_CUTHILL_MCKEE ? reverseCuthillMckee (symmetric)
+                                                     : orderByCholmod (symmetric, ordering);
+}
+
+using Vector = Eigen::VectorXd;
+
+// Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the
+// residual and the pivots.
+
+class IncompleteFactors : public Eigen::IncompleteLUT<double>
+{
+public:
+  std::size_t nonZeros () const { return static_cast<std::size_t> (m_lu.nonZeros ()); }
+};
+
+// The factors as a preconditioner, at whose every use the run is polled for cancellation.
+struct Preconditioner
+{
+  template <typename AnyMatrix>
+  Preconditioner& compute (const AnyMatrix&)
+  {
+    return *this;
+  }
+  Eigen::ComputationInfo info () const { return Eigen::Success; }
+  Vector solve (const Vector& rest) const
+  {
+    run->poll ();
+    return factors->solve (rest);
+  }
+
+  const IncompleteFactors* factors = nullptr;
+  const RunContext* run = nullptr;
+};
+
+// Solves for one right-hand side.
+// \return the solution, and iterations
+std::pair<Vector, int>
+iterate (const LinearSystem& system, Eigen::Index side, const IncompleteFactors& factors,
+         const SolverOptions& options, const RunContext& run)
+{
+  Eigen::BiCGSTAB<SystemMatrix, Preconditioner> solver; // van der Vorst 1992
+  solver.preconditioner () = {&factors, &run};
+  solver.compute (system.matrix);
+  Vector rest = system.rhs.col (side), solution = Vector::Zero (rest.size ()), step;
+  double norm = rest.norm (), target = options.tolerance * norm;
+  int iterations = 0;
+  while (norm > target && iterations < options.max_iterations) {
+    solver.setTolerance (target / norm);
+    solver.setMaxIterations (options.max_iterations - iterations);
+    step = solver.solve (rest);
+    iterations += static_cast<int> (solver.iterations ());
+    step += solution;
+    Residual residual = measureResidual (system, side, step);
+    const double next_norm = residual.rest.norm ();
+    if (!(next_norm < norm))
+      break;
+    std::swap (solution, step);
+    rest = std::move (residual.rest);
+    const bool stalls = next_norm > 0.5 * norm;
+    norm = next_norm;
+    target = residual.target (options.tolerance);
+    if (stalls)
+      break;
+  }
+  return {std::move (solution), iterations};
+}
+
+// Sweeps between two measurements of the residual, each of which costs as much as a sweep.
+constexpr int SWEEPS_BETWEEN_CHECKS = 10;
+
+void
+sweep (const LinearSystem& system, const RunContext& run, Eigen::MatrixX2d& uv)
+{
+  ProgressLoop progress (run);
+  for (Eigen::Index i = 0; i < system.matrix.rows (); ++i) {
+    progress.next ();
+    Eigen::RowVector2d sum = system.rhs.row (i);
+    double diagonal = 0.0;
+    for (SystemMatrix::InnerIterator entry (system.matrix, i); entry; ++entry)
+      if (entry.col () == i)
+        diagonal = entry.value ();
+      else
+        sum -= entry.value () * uv.row (entry.col ());
+    uv.row (i) = sum / diagonal;
+  }
+}
+
+// BiCGSTAB with Eigen's IncompleteLUT: one incomplete factorization, then each coordinate by
+// itself. The residual that BiCGSTAB updates drifts away from the true one. So the true one is
+// measured when it stops, and it starts again on what is left until the tolerance is reached, the
+// iterations of all rounds are used up, or a round does not halve the residual. Eigen counts fill
+// in mean rows of the matrix, so ilut_fill is rounded up to a multiple of these.
+void
+solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run,
+                   Solution& solution)
+{
+  const Eigen::Index n = system.rhs.rows ();
+  IncompleteFactors factors;
+  // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
+  const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
+  const double fill = std::ceil (2.0 * options.ilut_fill / mean_row);
+  // Eigen reserves so many entries, and counts them in an int without looking.
+  const std::size_t reserved_in_row =
+      std::min (system.unknowns (), static_cast<std::size_t> (fill * mean_row) + 1) + 1;
+  requireCountable (system.unknowns () * reserved_in_row, MOST_MATRIX_ENTRIES,
+                    "the incomplete factorization", "use a smaller fill, or fewer points");
+  factors.setFillfactor (static_cast<int> (fill));
+  factors.setDroptol (options.ilut_drop);
+  factors.compute (system.matrix);
+  solution.nnz_factors = factors.nonZeros ();
+
+  solution.uv.resize (n, 2);
+  parallelTasks (run, 2, [&] (std::size_t side) {
+    const auto at = static_cast<Eigen::Index> (side);
+    const auto [unknowns, iterations] = iterate (system, at, factors, options, run);
+    solution.uv.col (at) = unknowns;
+    solution.iterations[side] = static_cast<std::size_t> (iterations);
+  });
+}
+
+// Sweeps over the rows in their order, in which each unknown becomes the weighted mean of its
+// neighbours. A sweep shrinks the error by a factor of 1 - O(1/n) for n unknowns, so the number of
+// sweeps grows with n.
+void
+solveWithGaussSeidel (const LinearSystem& system, const SolverOptions& options,
+                      const RunContext& run, Solution& solution)
+{
+  solution.uv = Eigen::MatrixX2d::Zero (system.rhs.rows (), 2);
+  std::array<bool, 2> solved{};
+  for (int sweeps = 0; sweeps < options.max_iterations && !(solved[0] && solved[1]);) {
+    const int next = std::min (sweeps + SWEEPS_BETWEEN_CHECKS, options.max_iterations);
+    for (; sweeps < next; ++sweeps)
+      sweep (system, run, solution.uv);
+    for (std::size_t side = 0; side < 2; ++side)
+      if (!solved[side]) {
+        const auto at = static_cast<Eigen::Index> (side);
+        const Residual residual = measureResidual (system, at, solution.uv.col (at));
+        solution.iterations[side] = static_cast<std::size_t> (sweeps);
+        solved[side] = residual.rest.norm () <= residual.target (options.tolerance);
+      }
+  }
+}
+
 // Above this number, memory counts: METIS's factors are smaller than AMD's by a quarter to a third,
 // and solving takes as long, or up to 1.6 times as long (four discs of 300,000 points).
 constexpr std::size_t METIS_UNKNOWNS = 100'000;
@@ -117,21 +319,49 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
 
 } // namespace
 
-Residual
-measureResidual (const LinearSystem& system, Eigen::Index side,
-                 const Eigen::Ref<const Eigen::VectorXd>& solution)
+LinearSystem
+assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
+                const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
+                const std::vector<std::uint8_t>& reachable, std::size_t most_entries)
 {
-  constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon ();
-  Residual residual{system.rhs.col (side), system.rhs.col (side).norm (), 0.0};
-  Eigen::VectorXd magnitude = residual.rest.cwiseAbs ();
-  for (Eigen::Index i = 0; i < system.matrix.rows (); ++i)
-    for (SystemMatrix::InnerIterator entry (system.matrix, i); entry; ++entry) {
-      const double term = entry.value () * solution[entry.col ()];
-      residual.rest[i] -= term;
-      magnitude[i] += std::abs (term);
+  LinearSystem system;
+  std::vector<Index> place_in_loop (neighbors.rows (), NONE), unknown_of_point = place_in_loop;
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    place_in_loop[loop[i]] = static_cast<Index> (i);
+  for (std::size_t p = 0; p < neighbors.rows (); ++p)
+    if (place_in_loop[p] == NONE && reachable[p] != 0) {
+      unknown_of_point[p] = static_cast<Index> (system.point_of_unknown.size ());
+      system.point_of_unknown.push_back (static_cast<Index> (p));
     }
-  residual.rounding = ROUNDING * magnitude.norm ();
-  return residual;
+  const auto unknowns = static_cast<Eigen::Index> (system.point_of_unknown.size ());
+  std::size_t entries = 0;
+  system.matrix.resize (unknowns, unknowns);
+  system.matrix.reserve (unknowns + static_cast<Eigen::Index> (neighbors.ids.size ()));
+  system.rhs.setZero (unknowns, 2);
+  std::vector<std::pair<Eigen::Index, double>> row;
+  for (Eigen::Index i = 0; i < unknowns; ++i) {
+    row.assign (1, {i, 0.0});
+    const Index p = system.point_of_unknown[static_cast<std::size_t> (i)];
+    for (std::size_t entry = neighbors.offsets[p]; entry < neighbors.offsets[p + 1]; ++entry) {
+      const Index q = neighbors.ids[entry];
+      const double weight = weights[entry];
+      if (unknown_of_point[q] != NONE)
+        row.emplace_back (unknown_of_point[q], -weight);
+      else if (place_in_loop[q] != NONE)
+        system.rhs.row (i) += weight * loop_uv[place_in_loop[q]].transpose ();
+      else
+        continue;
+      row.front ().second += weight;
+    }
+    requireCountable (entries += row.size (), most_entries, "the linear system",
+                      "use fewer points or fewer neighbours, or make a surface instead of a disc");
+    std::sort (row.begin (), row.end ());
+    system.matrix.startVec (i);
+    for (const auto& [column, value] : row)
+      system.matrix.insertBack (i, column) = value;
+  }
+  system.matrix.finalize ();
+  return system;
 }
 
 Problem
@@ -164,8 +394,8 @@ solve (const LinearSystem& system, const SolverOptions& options, const RunContex
     return solution;
   }
   // Any solver can solve the reordered system as it comes.
-  const Eigen::PermutationMatrix<Eigen::Dynamic> order = orderUnknowns (system.matrix, ordering);
-  const Eigen::PermutationMatrix<Eigen::Dynamic> place = order.inverse ();
+  const Order order = orderUnknowns (system.matrix, ordering);
+  const Order place = order.inverse ();
   LinearSystem ordered;
   ordered.matrix = system.matrix.twistedBy (place);
   ordered.rhs = place * system.rhs;

@@ -48,10 +48,9 @@ struct Solution
 {
   Problem problem;     ///< SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or INTERNAL_ERROR
   Eigen::MatrixX2d uv; ///< per unknown; no rows if there is a problem
-  std::size_t nnz_factors =
-      0;                 ///< entries of L and U, also of incomplete factors; the unit diagonal
-                         ///< of L is not counted
-  double residual = 0.0; ///< max |b - A u|
+  /// Entries of L and U, also of incomplete factors; the unit diagonal of L is not counted
+  std::size_t nnz_factors = 0;
+  double residual = 0.0;                   ///< max |b - A u|
   double relative_residual = 0.0;          ///< |b - A u| / |b| of the worse right-hand side
   std::array<std::size_t, 2> iterations{}; ///< iterative solvers: for u and for v
   double reciprocal_condition = 0.0; ///< direct solvers: min |U_kk| / max |U_kk|; 1 if there is
@@ -67,5 +66,32 @@ struct Solution
 /// \throws std::bad_alloc, IndexLimitReached
 Solution
 solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run);
+
+/// Makes OpenBLAS use one thread while any instance exists, and restores the former number
+/// afterwards. More threads are slower on our small fronts, and change the last digits of the
+/// factors. OpenBLAS is looked up at run time; with any other BLAS this does nothing. The number
+/// belongs to the process, so all instances share it: the first saves it, the last restores it.
+class SingleBlasThread
+{
+public:
+  /// \throws std::bad_alloc if there is no memory for the work buffer of OpenBLAS
+  SingleBlasThread ();
+  ~SingleBlasThread ();
+  SingleBlasThread (const SingleBlasThread&) = delete;
+  SingleBlasThread& operator= (const SingleBlasThread&) = delete;
+};
+
+/// Why there is no solution.
+/// \param status SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY, or INTERNAL_ERROR
+Problem
+notSolved (RunStatus status, const std::string& why);
+
+/// One factorization for both right-hand sides, with one BLAS thread: fills `uv` and the figures of the
+/// solution, or tells the problem. The rows are the columns of the transpose, whose dominant diagonal
+/// keeps pivots on the diagonal.
+/// \param ordering AMD, or NATURAL: as the unknowns come
+void
+solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContext& run,
+                  Solution& solution);
 
 } // namespace pcl::floater

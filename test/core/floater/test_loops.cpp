@@ -5,7 +5,7 @@
 #include "floater/boundary/boundary.h"
 
 #include "core/geometry.h"
-#include "floater/domain.h"
+#include "floater/floater_method.h"
 #include "options/option_rows.h"
 #include "samples.h"
 

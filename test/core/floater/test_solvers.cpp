@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The linear system, and all solvers in all orders, on systems whose solution is known; the connection of all points
 // with the loop.
-#include "floater/solvers/solver_parts.h"
+#include "floater/solvers/solver.h"
 
 #include "floater/floater_method.h"
 #include "floater/weights.h"

@@ -6,7 +6,6 @@
 #include "texture/chart_layout.h"
 #include "texture/charts.h"
 #include "texture/smoothing.h"
-#include "texture/stretch.h"
 
 #include <gtest/gtest.h>
 

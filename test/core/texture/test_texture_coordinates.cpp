@@ -4,7 +4,7 @@
 // all texture coordinates is checked without any code of the texture stage.
 #include "mesh/known_meshes.h"
 #include "mesh/self_intersections.h"
-#include "texture/stretch.h"
+#include "texture/chart_mesh.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
 

@@ -3,7 +3,7 @@
 // Which clouds are taken for a scan, where the sensor was, and which given places are doubted; the rows of a scanner.
 #include "scan_samples.h"
 #include "view/ray_evidence.h"
-#include "view/row_evidence.h"
+#include "view/viewpoint_search.h"
 
 #include <gtest/gtest.h>
 
