@@ -243,7 +243,7 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   return boundary;
 }
 
-// The given viewpoint, or the origin of the sensor if the points are evenly spaced from there.
+// The given viewpoint, or the origin of the sensor if rays or outlines tell that it was there.
 std::optional<Viewpoint>
 knownViewpoint (const Points& points, const Request& request)
 {
