@@ -239,7 +239,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   finish.largest_fold_share = settings.limits.largest_fold_share;
   finish.limits = settings.finish;
   finish.facing = settings.facing;
-  finish.insert_points = !options.as_published;
+  finish.add_points = !options.as_published;
   finish.repair = finish.flip_edges && settings.options.remove_self_intersections;
   disc.finish = finishMesh (disc.mesh, points.positions, geometry, finish, run);
   if (!disc.finish.is_repairable)

@@ -4,12 +4,11 @@
 
 #include "mesh/flips.h"
 #include "mesh/hole_filling.h"
-#include "mesh/insertion.h"
 
 namespace pcl::floater {
 namespace {
 // Fractions of the stage's time at the end of these steps. Measured on clean clouds.
-constexpr double AFTER_INSERTION = 0.1, AFTER_FLIPS = 0.65;
+constexpr double AFTER_POINTS = 0.1, AFTER_FLIPS = 0.65;
 // Rings around the zones that are made anew. With 3 again, 12 clouds and 200 generated bodies were
 // the same.
 constexpr int WIDEST = 3, WIDEST_AGAIN = 2;
@@ -47,9 +46,9 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
   const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
-  run.beginStep (AFTER_INSERTION);
-  if (settings.insert_points)
-    insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
+  run.beginStep (AFTER_POINTS);
+  if (settings.add_points)
+    addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
@@ -73,7 +72,7 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       if (finish.remade.points () == 0)
         return;
       std::size_t changes =
-          insertMissingPoints (mesh, geometry.neighbors, cost, settings.flip_edges, run);
+          addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
       if (settings.limits.remaking.disturbance.closes_gaps)
         changes +=
             fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Final changes of a mesh of any method: insertion, flips, repair, orientation.
+// Final changes of a mesh of any method: missing points, flips, repair, orientation.
 #pragma once
 
 #include "local/local_geometry.h"
@@ -11,6 +11,7 @@
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
+#include "mesh/vertex_splits.h"
 #include "points/neighbors.h"
 
 #include <limits>
@@ -24,6 +25,7 @@ struct FinishLimits
   CostLimits cost;
   RepairLimits repair;
   NotchLimits notches;
+  SplitLimits splits;
   NeckLimits necks;
   RemakingLimits remaking;
   FacingLimits facing;
@@ -37,7 +39,7 @@ struct FinishSettings
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   FinishLimits limits = {};
   FacingHints facing = {};
-  bool insert_points = true;     ///< insert points that have no triangle
+  bool add_points = true;        ///< add points that have no triangle (see addMissingPoints)
   bool repair = false;           ///< repair flaws (see repairFlaws), and set MeshFinish::crossing
   bool remake_sheets = false;    ///< then make disturbed zones anew in space
   bool are_points_added = false; ///< leave the last repair to the caller, who adds points first
@@ -58,7 +60,7 @@ struct MeshFinish
   MeshFacing facing;                     ///< which components were flipped, and why
 };
 
-/// Inserts missing points, flips edges, opens notches and folds of the boundary, repairs folds and
+/// Adds missing points, flips edges, opens notches and folds of the boundary, repairs folds and
 /// self-intersections, and orients every component outwards. O(n log n) at worst.
 /// \param positions of the points; the vertices lie on them
 /// \param geometry  normals of vertices get the side of the mesh before faceOutwards ()

@@ -63,7 +63,7 @@ public:
               const RunContext& run)
       : mesh_ (mesh), repair_ (repair), ridges_ (ridges), limits_ (limits), run_ (run),
         is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
-        mover_ (mesh, neighbors, cost, limits.largest_fan, run),
+        mover_ (mesh, positions, neighbors, cost, limits.largest_fan, limits.places, run),
         most_tests_ (
             std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),
         changed_in_ (mesh.triangles.size (), 1), tried_in_ (mesh.triangle_of.size (), 0)
@@ -258,25 +258,25 @@ private:
     return last;
   }
 
-  // Tries all triangles for a vertex, and keeps the best one if it helps.
+  // Tries all cuts for a vertex, and keeps the best one if it helps.
   bool move (Index v)
   {
     mesh_.recordChanges ();
     double best = 0.0;
-    const VertexMover::Place* best_place = nullptr;
-    const std::vector<VertexMover::Place> places = mover_.placesFor (v, limits_.places);
-    for (const VertexMover::Place& place : places) {
+    const Cut* best_cut = nullptr;
+    const std::vector<Cut> cuts = mover_.cutsFor (v);
+    for (const Cut& cut : cuts) {
       run_.poll ();
       if (isSpent ())
         break;
-      if (const double gain = gainOf ([&] { mover_.moveTo (v, place); }); gain > best) {
+      if (const double gain = gainOf ([&] { mover_.moveTo (v, cut); }); gain > best) {
         best = gain;
-        best_place = &place;
+        best_cut = &cut;
       }
     }
-    if (best_place != nullptr)
-      keep ([&] { mover_.moveTo (v, *best_place); });
-    return best_place != nullptr;
+    if (best_cut != nullptr)
+      keep ([&] { mover_.moveTo (v, *best_cut); });
+    return best_cut != nullptr;
   }
 
   // Gain of a change, in the unit of cost: above 0 if it should be kept. The mesh stays unchanged.

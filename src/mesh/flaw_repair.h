@@ -18,8 +18,8 @@ struct RepairLimits
                                 ///< edge that is folded by 180 degrees (CostLimits::fold_cost)
   std::size_t largest_fan = 24; ///< triangles around a vertex that is moved. 12, 16 and 40 leave
                                 ///< about as many flaws
-  std::size_t places = 8;       ///< cheapest triangles in which a vertex to move is tried. 4 and 16
-                                ///< leave about as many flaws
+  std::size_t places = 8;       ///< neighbours whose fan a vertex to move may split. 4 and 12 leave
+                                ///< about as many flaws
   std::size_t passes = 6;       ///< over the flawed triangles; the first two do most of the work
 
   /// Patches are rebuilt around a triangle: its corners and those of the triangles that it crosses,

@@ -34,56 +34,29 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   });
 }
 
-double
-splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double limit)
-{
-  const auto [a, b, c] = mesh.triangles[t];
-  const TriangleCost::Value whole = cost (a, b, c);
-  double added = -whole.cost;
-  std::array<Eigen::Vector3d, 3> across;
-  for (std::uint8_t side = 0; side < 3; ++side) {
-    across[side] = normalAcross (mesh, cost, {t, side});
-    added -= cost.plain ().ofEdge (whole.unit_normal, across[side]);
-  }
-  // All following terms are 0 or more.
-  const std::array<Triangle, 3> corners{{{p, b, c}, {p, c, a}, {p, a, b}}};
-  std::array<Eigen::Vector3d, 3> part;
-  for (std::uint8_t side = 0; side < 3; ++side) {
-    // Not cached: nearly all of these splits are never made.
-    const TriangleCost::Value value = cost.plain ().value (p, corners[side][1], corners[side][2]);
-    part[side] = value.unit_normal;
-    added += value.cost;
-    if (added > limit)
-      return added;
-  }
-  for (std::uint8_t side = 0; side < 3; ++side)
-    added += cost.plain ().ofEdge (part[side], part[TriangleMesh::next (side)]) +
-             cost.plain ().ofEdge (part[side], across[side]);
-  return added;
-}
-
-void
+std::size_t
 EdgeFlipper::run ()
 {
   constexpr std::size_t EDGES_PER_POLL = 256;
   const std::size_t pushed = stack_.size ();
-  std::size_t edges = 0;
+  std::size_t edges = 0, flips = 0;
   ProgressLoop progress (run_, pushed);
   while (!stack_.empty ()) {
     if (++edges % EDGES_PER_POLL == 0)
       progress.reach (pushed - std::min (pushed, stack_.size ()));
     const MeshEdge e = stack_.back ();
     stack_.pop_back ();
-    if (changeByFlip (e) >= 0.0)
+    if (!improves (e))
       continue;
     const MeshEdge m = mesh_.mate (e);
     mesh_.flip (e);
-    ++flips_;
+    ++flips;
     for (const Index t : {e.triangle, m.triangle})
       for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
         if (mesh_.neighbors[t][side] != NONE)
           stack_.push_back ({t, side});
   }
+  return flips;
 }
 
 bool
@@ -98,22 +71,25 @@ EdgeFlipper::mayImprove (MeshEdge e) const
          cost_ (c, a, d).cost + cost_ (d, b, c).cost < cab.cost + dba.cost;
 }
 
-double
-EdgeFlipper::changeByFlip (MeshEdge e) const
+bool
+EdgeFlipper::improves (MeshEdge e) const
 {
   const MeshEdge m = mesh_.mate (e);
   if (m.triangle == NONE)
-    return 0.0;
+    return false;
   const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
   const TriangleCost::Value now_cab = cost_ (c, a, b), now_dba = cost_ (d, b, a);
   const TriangleCost::Value then_cad = cost_ (c, a, d), then_dbc = cost_ (d, b, c);
   const double now = now_cab.cost + now_dba.cost;
   const double then = then_cad.cost + then_dbc.cost;
   if (then >= now && now_cab.unit_normal.dot (now_dba.unit_normal) >= 0.0)
-    return 0.0;
-  // Normals across the other edges of the two triangles.
+    return false;
+  // Normals across the other edges of the two triangles; zero at the boundary, so that edges there
+  // cost 0.
   const auto across = [this] (Index t, std::uint8_t side) {
-    return normalAcross (mesh_, cost_, {t, side});
+    const Index other = mesh_.neighbors[t][side];
+    return other == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
+                         : cost_ (mesh_.triangles[other]).unit_normal;
   };
   const Eigen::Vector3d at_bc = across (e.triangle, TriangleMesh::next (e.side));
   const Eigen::Vector3d at_ca = across (e.triangle, TriangleMesh::previous (e.side));
@@ -131,9 +107,7 @@ EdgeFlipper::changeByFlip (MeshEdge e) const
       at_edge (at_bc, then_dbc.unit_normal) + at_edge (at_ca, then_cad.unit_normal) +
       at_edge (at_ad, then_cad.unit_normal) + at_edge (at_db, then_dbc.unit_normal);
   constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
-  if (total_then >= total - IMPROVES * std::abs (total) || mesh_.hasEdge (c, d))
-    return 0.0;
-  return total_then - total;
+  return total_then < total - IMPROVES * std::abs (total) && !mesh_.hasEdge (c, d);
 }
 
 std::size_t
@@ -158,8 +132,7 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
   for (auto task = found.rbegin (); task != found.rend (); ++task)
     for (auto e = task->rbegin (); e != task->rend (); ++e)
       flipper.push (*e);
-  flipper.run ();
-  return flipper.flips ();
+  return flipper.run ();
 }
 
 } // namespace pcl::floater

@@ -19,20 +19,6 @@ orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
                std::vector<Eigen::Vector3f>& normals, const RunContext& run,
                const std::vector<std::uint8_t>& is_remade = {});
 
-/// Unit normal of the triangle across an edge; zero at the boundary, so that edges there cost 0.
-inline Eigen::Vector3d
-normalAcross (const TriangleMesh& mesh, CachedCost& cost, MeshEdge e)
-{
-  const Index other = mesh.neighbors[e.triangle][e.side];
-  return other == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
-                       : cost (mesh.triangles[other]).unit_normal;
-}
-
-/// Cost that the split of triangle t at point p would add, edges included. If it exceeds the limit,
-/// any value above the limit may be returned.
-double
-splitCost (const TriangleMesh& mesh, CachedCost& cost, Index t, Index p, double limit);
-
 /// Flips edges from a stack, and those around each flipped edge, until no flip lowers the cost of
 /// the mesh. A flip changes the cost of two triangles and their five edges. In the plane, this is
 /// the flip algorithm for Delaunay triangulations (Lee and Schachter 1980).
@@ -47,22 +33,19 @@ public:
   void push (MeshEdge e) { stack_.push_back (e); }
 
   /// Empties the stack.
-  void run ();
-
-  std::size_t flips () const { return flips_; }
+  /// \return number of flips
+  std::size_t run ();
 
   /// False for edges whose flip cannot lower the cost, whatever is beside their triangles.
   bool mayImprove (MeshEdge e) const;
 
 private:
-  // Change of cost by the flip of an edge; 0 if it is not allowed or lowers nothing.
-  double changeByFlip (MeshEdge e) const;
+  bool improves (MeshEdge e) const;
 
   TriangleMesh& mesh_;
   CachedCost& cost_;
   RunContext run_;
   std::vector<MeshEdge> stack_;
-  std::size_t flips_ = 0;
 };
 
 /// Flips edges of the whole mesh (see EdgeFlipper), but those of the boundary. Few edges are

@@ -5,8 +5,8 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "mesh/insertion.h"
 #include "mesh/self_intersections.h"
+#include "mesh/vertex_splits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +85,7 @@ public:
       TriangleMesh after;
       if (!takeOut (sides, after.triangles) || !after.connect (points_.size (), run_, &is_rim_))
         continue;
-      insertMissingPoints (after, neighbors_, cost_, true, run_);
+      addMissingPoints (after, positions_, neighbors_, {}, run_);
       if (std::count (after.triangle_of.begin (), after.triangle_of.end (), NONE) > 0 ||
           rimEdges (after) != rim)
         continue;

@@ -24,7 +24,7 @@ struct NeckLimits
 };
 
 /// Cuts along short loops around necks (see findNeckLoops): takes out the triangles at the points of
-/// a loop, on one side of it or on both, fills the two openings, and inserts points that have no
+/// a loop, on one side of it or on both, fills the two openings, and adds points that have no
 /// triangle left. The cheapest of these cuts is made if the mesh around is bent clearly less then; of
 /// cuts that overlap, the one that leaves the least share. A neck between sheets that only come close
 /// bends twice by a right angle; across a true one, the fillings would. A cut takes a handle away, or

@@ -129,13 +129,15 @@ TriangleMesh::flip (MeshEdge e)
   setTriangleOf (d, u);
 }
 
-void
-TriangleMesh::split (Index t, Index p)
+MeshEdge
+TriangleMesh::attach (MeshEdge e, Index p)
 {
-  const auto u = static_cast<Index> (triangles.size ());
-  triangles.resize (u + 2U);
-  neighbors.resize (u + 2U, {NONE, NONE, NONE});
-  split (t, p, u, u + 1);
+  const auto t = static_cast<Index> (triangles.size ());
+  triangles.push_back ({p, to (e), from (e)});
+  neighbors.push_back ({NONE, NONE, NONE});
+  link (t, 0, e);
+  setTriangleOf (p, t);
+  return {t, 0};
 }
 
 void

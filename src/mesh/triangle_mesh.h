@@ -99,10 +99,12 @@ struct TriangleMesh
   /// the new edge is side 1 of both.
   void flip (MeshEdge e);
 
-  /// Splits triangle t in three at point p, which must not be a vertex. Appends two triangles.
-  void split (Index t, Index p);
+  /// Appends the triangle of a boundary edge and a point p that is not a vertex.
+  /// \return its edge opposite to p
+  MeshEdge attach (MeshEdge e, Index p);
 
-  /// Splits triangle t; the second and the third part become u and v, which must be unused.
+  /// Splits triangle t in three at point p, which must not be a vertex; the second and the third part
+  /// become u and v, which must be unused.
   void split (Index t, Index p, Index u, Index v);
 
   /// Replaces the closed fan around p by a triangulation of the polygon around it, which has two

@@ -3,8 +3,6 @@
 #include "mesh/vertex_mover.h"
 
 #include <algorithm>
-#include <limits>
-#include <tuple>
 
 namespace pcl::floater {
 // Finds the filling of the hole that a vertex leaves. Returns false if it cannot leave.
@@ -34,23 +32,40 @@ VertexMover::takeOut (Index v)
   mesh_.replaceFan (v, slots_, filled_);
 }
 
-std::vector<VertexMover::Place>
-VertexMover::placesFor (Index v, std::size_t most)
+std::vector<Cut>
+VertexMover::cutsFor (Index v)
 {
   if (!fillHoleOf (v))
     return {};
   const std::size_t before = mesh_.mark ();
   takeOut (v);
-  const std::vector<Place> places = findPlaces (v, most);
+  std::vector<Cut> cuts = splitter_.cutsFor (v, neighbors_.row (v));
   mesh_.undo (before);
-  return places;
+  return cuts;
 }
 
 void
-VertexMover::moveTo (Index v, const Place& place)
+VertexMover::moveTo (Index v, const Cut& cut)
 {
   takeOut (v);
-  settleAt (v, place.triangle);
+  settle (v, cut);
+}
+
+// Lets a vertex join by the two free slots, and flips edges around it and its old hole.
+void
+VertexMover::settle (Index v, const Cut& cut)
+{
+  splitter_.split (cut, v, slots_[slots_.size () - 2], slots_.back ());
+  mesh_.fan (v, fan_);
+  fan_.insert (fan_.end (), slots_.begin (), slots_.end () - 2);
+  for (const Index u : fan_)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh_.neighbors[u][side];
+      if (other != NONE &&
+          (u < other || std::find (fan_.begin (), fan_.end (), other) == fan_.end ()))
+        flipper_.push ({u, side});
+    }
+  flipper_.run ();
 }
 
 bool
@@ -65,69 +80,13 @@ VertexMover::rebuild (const std::vector<Index>& vertices)
     unused.insert (unused.end (), slots_.end () - 2, slots_.end ());
   }
   for (; !out.empty (); out.pop_back (), unused.resize (unused.size () - 2)) {
-    slots_.assign (unused.end () - 2, unused.end ());
-    if (findPlaces (out.back (), 1).empty ())
+    const std::vector<Cut>& cuts = splitter_.cutsFor (out.back (), neighbors_.row (out.back ()));
+    if (cuts.empty ())
       return false;
-    settleAt (out.back (), places_.front ().triangle);
+    slots_.assign (unused.end () - 2, unused.end ());
+    settle (out.back (), cuts.front ());
   }
   return true;
-}
-
-// Splits triangle t at a vertex, using the two free slots, and flips edges around the vertex and
-// its old hole.
-void
-VertexMover::settleAt (Index v, Index t)
-{
-  mesh_.split (t, v, slots_[slots_.size () - 2], slots_.back ());
-  mesh_.fan (v, fan_);
-  fan_.insert (fan_.end (), slots_.begin (), slots_.end () - 2);
-  for (Index u : fan_)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index other = mesh_.neighbors[u][side];
-      if (other != NONE &&
-          (u < other || std::find (fan_.begin (), fan_.end (), other) == fan_.end ()))
-        flipper_.push ({u, side});
-    }
-  flipper_.run ();
-}
-
-// The triangles with the cheapest splits at the vertex, at most `most`.
-const std::vector<VertexMover::Place>&
-VertexMover::findPlaces (Index v, std::size_t most)
-{
-  places_.clear ();
-  if (most == 0)
-    return places_;
-  ++search_;
-  for (std::size_t i = 0; i + 2 < slots_.size (); ++i)
-    offer (slots_[i], v, most);
-  for (Index q : neighbors_.row (v)) {
-    mesh_.fan (q, fan_);
-    for (Index t : fan_)
-      offer (t, v, most);
-  }
-  return places_;
-}
-
-// Adds a triangle to the cheapest ones if it belongs there and was not visited.
-void
-VertexMover::offer (Index t, Index v, std::size_t most)
-{
-  if (offered_[t] == search_)
-    return;
-  offered_[t] = search_;
-  const double limit =
-      places_.size () < most ? std::numeric_limits<double>::infinity () : places_.back ().added;
-  const Place place{splitCost (mesh_, cost_, t, v, limit), t};
-  const auto isCheaper = [] (const Place& a, const Place& b) {
-    return std::tie (a.added, a.triangle) < std::tie (b.added, b.triangle);
-  };
-  if (places_.size () == most) {
-    if (!isCheaper (place, places_.back ()))
-      return;
-    places_.pop_back ();
-  }
-  places_.insert (std::upper_bound (places_.begin (), places_.end (), place, isCheaper), place);
 }
 
 } // namespace pcl::floater

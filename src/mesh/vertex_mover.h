@@ -5,14 +5,15 @@
 
 #include "mesh/flips.h"
 #include "mesh/hole_filling.h"
+#include "mesh/vertex_splits.h"
 
 #include <vector>
 
 namespace pcl::floater {
-/// Removes a vertex, fills its hole by the triangulation of least cost (see PolygonFilling),
-/// inserts it into a triangle at one of its nearest neighbours, on any sheet, and flips edges
-/// around both. Vertices at the boundary and with too many triangles are not moved. While the mover
-/// exists, the mesh records its changes, so that they can be undone exactly.
+/// Removes a vertex, fills its hole by the triangulation of least cost (see PolygonFilling), and lets
+/// it join the mesh again by the split of one of its nearest neighbours, on any sheet (see
+/// VertexSplitter), with flips of edges around both. Vertices at the boundary and with too many triangles are not moved. While the
+/// mover exists, the mesh records its changes, so that they can be undone exactly.
 class VertexMover
 {
 public:
@@ -21,10 +22,13 @@ public:
 
   /// \param neighbors   nearest neighbours of each point
   /// \param largest_fan triangles; a vertex with more of them is not moved
-  VertexMover (TriangleMesh& mesh, const CsrLists& neighbors, const TriangleCost& cost,
-               std::size_t largest_fan, const RunContext& run)
+  /// \param places      number of neighbours that may be split
+  VertexMover (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+               const TriangleCost& cost, std::size_t largest_fan, std::size_t places,
+               const RunContext& run)
       : mesh_ (mesh), neighbors_ (neighbors), largest_fan_ (largest_fan), cost_ (cost),
-        flipper_ (mesh, cost_, run), filling_ (run), offered_ (mesh.triangles.size (), 0)
+        splitter_ (mesh, positions, splitLimits (places), true), flipper_ (mesh, cost_, run),
+        filling_ (run)
   {
     mesh_.recordChanges ();
   }
@@ -32,49 +36,43 @@ public:
   VertexMover& operator= (const VertexMover&) = delete;
   ~VertexMover () { mesh_.recordChanges (false); }
 
-  /// A triangle for the insertion of a vertex.
-  struct Place
-  {
-    double added; ///< cost of its split at the vertex
-    Index triangle;
-  };
-
-  /// Triangles for a vertex, the cheapest first. The mesh stays unchanged.
-  /// \param most maximum number of triangles
+  /// Cuts for a vertex, the cheapest first. The mesh stays unchanged.
   /// \return empty if the vertex cannot be removed
-  std::vector<Place> placesFor (Index v, std::size_t most);
+  std::vector<Cut> cutsFor (Index v);
 
-  /// Moves the vertex for which placesFor () was called last, in the state of the mesh then.
-  /// \param place one that was found for it
-  void moveTo (Index v, const Place& place);
+  /// Moves the vertex for which cutsFor () was called last, in the state of the mesh then.
+  /// \param cut one that was found for it
+  void moveTo (Index v, const Cut& cut);
 
-  /// Removes vertices, except immovable ones, and reinserts them one by one, each where it then
+  /// Removes vertices, except immovable ones, and lets them join again one by one, each where it then
   /// costs least.
-  /// \param vertices each once; the last one is inserted first
+  /// \param vertices each once; the last one joins first
   /// \return false if one of them fits nowhere; then the caller has to undo
   bool rebuild (const std::vector<Index>& vertices);
 
   CachedCost& cost () { return cost_; }
 
 private:
+  static SplitLimits splitLimits (std::size_t places)
+  {
+    SplitLimits limits;
+    limits.near = places;
+    return limits;
+  }
   bool fillHoleOf (Index v);
   void takeOut (Index v);
-  void settleAt (Index v, Index t);
-  const std::vector<Place>& findPlaces (Index v, std::size_t most);
-  void offer (Index t, Index v, std::size_t most);
+  void settle (Index v, const Cut& cut);
 
   TriangleMesh& mesh_;
   const CsrLists& neighbors_;
   std::size_t largest_fan_;
   CachedCost cost_;
+  VertexSplitter splitter_;
   EdgeFlipper flipper_;
   PolygonFilling filling_;
   std::vector<Triangle> filled_; // the filling of the hole that a vertex leaves
   std::vector<Index> slots_;     // triangles of that hole; the last two are unused
   std::vector<Index> fan_, polygon_;
-  std::vector<Place> places_;          // cheapest first
-  std::vector<std::uint32_t> offered_; // per triangle: the last search that visited it
-  std::uint32_t search_ = 0;
 };
 
 } // namespace pcl::floater

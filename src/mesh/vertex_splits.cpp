@@ -9,106 +9,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl::floater {
-namespace {
-// The triangles around a vertex and the places between them, anti-clockwise. Triangle k has the
-// places k and k + 1 as its other corners. Around a closed fan, places count on.
-struct Fan
+Eigen::Vector3d
+VertexSplitter::normalOf (Index t) const
 {
-  std::vector<Index> triangles;
-  std::vector<Index> ring;
-  bool is_closed = false;
+  return t == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
+                   : areaVectorOf (mesh_.triangles[t], positions_).normalized ();
+}
 
-  std::size_t size () const { return triangles.size (); }
-  Index triangle (std::size_t k) const { return triangles[k % size ()]; }
-  Index at (std::size_t k) const { return ring[k % ring.size ()]; }
-};
-
-// A part of the fan around a vertex, from one place to another.
-struct Cut
+const std::vector<Cut>&
+VertexSplitter::cutsFor (Index p, Row near)
 {
-  double cost = std::numeric_limits<double>::infinity ();
-  Index vertex = NONE;
-  std::size_t from = 0, to = 0;
-  // Whether a triangle with both points closes the cut there; at the boundary, one is enough.
-  bool has_begin = true, has_end = true;
-};
-
-class VertexSplitter
-{
-public:
-  VertexSplitter (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                  const SplitLimits& limits, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), tree_ (positions, run)
-  {
-    mesh_.triangle_of.resize (positions.size (), NONE);
-  }
-
-  bool add (Index p)
-  {
-    const Cut cut = bestNear (p);
-    if (cut.vertex != NONE)
-      split (cut, p);
-    return cut.vertex != NONE;
-  }
-
-private:
-  Eigen::Vector3d normalOf (Index t) const
-  {
-    return t == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
-                     : areaVectorOf (mesh_.triangles[t], positions_).normalized ();
-  }
-  void setFan (Index v) { fan_.is_closed = mesh_.fan (v, fan_.triangles, fan_.ring); }
-  Cut bestCut (Index v, Index p);
-
-  Cut bestNear (Index p)
-  {
-    tree_.nearestIf (
-        positions_[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits_.near,
-        [this] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
-          return mesh_.triangle_of[neighbor.point] != NONE;
-        },
-        found_);
-    Cut best;
-    for (const Neighbor& neighbor : found_) {
-      Cut cut = bestCut (neighbor.point, p);
-      cut.cost += limits_.far * std::sqrt (neighbor.sqr_distance);
-      if (cut.cost < best.cost)
-        best = cut;
-    }
-    return best;
-  }
-
-  Index newTriangle ()
-  {
-    mesh_.triangles.emplace_back ();
-    mesh_.neighbors.push_back ({NONE, NONE, NONE});
-    return static_cast<Index> (mesh_.triangles.size () - 1);
-  }
-
-  void split (const Cut& cut, Index p);
-
-  TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
-  const SplitLimits& limits_;
-  KdTree tree_;
-  Fan fan_;
-  std::vector<Neighbor> found_;
-  // Of bestCut: at each place, at v and at the new point.
-  struct Place
-  {
-    double length_v, length_p;          // of the spokes
-    double spoke_v, spoke_p;            // their costs
-    double rim;                         // change of the edge that follows
-    double first, last;                 // of a cut that begins or ends there
-    Eigen::Vector3d normal_v, normal_p; // of the triangle that follows
-    Eigen::Vector3d needle;             // normal of the triangle (v, place, p)
-  };
-  std::vector<Place> places_;
-  std::vector<double> rims_, spokes_v_, spokes_p_; // sums of those before a place
-};
+  cuts_.clear ();
+  std::size_t count = 0;
+  for (const Index v : near)
+    if (mesh_.triangle_of[v] != NONE && count++ < limits_.near)
+      if (const Cut cut = bestCut (v, p); cut.vertex != NONE)
+        cuts_.push_back (cut);
+  std::stable_sort (cuts_.begin (), cuts_.end (),
+                    [] (const Cut& a, const Cut& b) { return a.cost < b.cost; });
+  return cuts_;
+}
 
 Cut
 VertexSplitter::bestCut (Index v, Index p)
@@ -207,68 +129,119 @@ VertexSplitter::bestCut (Index v, Index p)
   for (std::size_t from = 0; from < (is_open ? ring : m); ++from)
     for (std::size_t to = from + 1; to < (is_open ? ring : from + m) && to <= from + widest; ++to)
       consider (from, to, true, true);
-  if (is_open)
+  if (is_open && !keeps_boundary_)
     for (std::size_t k = 0; k < ring; ++k) {
       consider (k, m, true, false);
       consider (0, k, false, true);
     }
+  best.cost += limits_.far * gap;
   return best;
 }
 
-// Gives p, which has no triangle, the part of a fan, and closes the cuts by triangles with both
-// points.
 void
 VertexSplitter::split (const Cut& cut, Index p)
 {
-  const Index v = cut.vertex;
-  setFan (v);
-  const std::size_t m = fan_.size (), from = cut.from, to = cut.to;
-  // Triangles beside the ends of the part, outside and inside; NONE at the boundary.
-  const Index before = from > 0 || fan_.is_closed ? fan_.triangle (from + m - 1) : NONE;
-  const Index after = to < m || fan_.is_closed ? fan_.triangle (to) : NONE;
-  const Index first = to > from ? fan_.triangle (from) : NONE;
-  const Index last = to > from ? fan_.triangle (to + m - 1) : NONE;
-  const Index from_point = fan_.at (from), to_point = fan_.at (to);
-  for (std::size_t k = from; k < to; ++k) {
-    Triangle& corners = mesh_.triangles[fan_.triangle (k)];
-    corners[mesh_.sideOf (fan_.triangle (k), v)] = p;
+  if (cut.has_begin && cut.has_end) {
+    const auto u = static_cast<Index> (mesh_.triangles.size ());
+    mesh_.triangles.resize (u + 2U);
+    mesh_.neighbors.resize (u + 2U, {NONE, NONE, NONE});
+    split (cut, p, u, u + 1);
+    return;
   }
-  const Index begin = cut.has_begin ? newTriangle () : NONE;
-  const Index end = cut.has_end ? newTriangle () : NONE;
-  if (begin != NONE) {
-    mesh_.triangles[begin] = {v, from_point, p};
-    mesh_.neighbors[begin] = {first, end, before};
-    // The edge of `before` that follows its first corner on the ring.
-    if (before != NONE)
-      mesh_.neighbors[before][TriangleMesh::next (mesh_.sideOf (before, v))] = begin;
-    if (first != NONE)
-      mesh_.neighbors[first][TriangleMesh::previous (mesh_.sideOf (first, p))] = begin;
-  }
-  if (end != NONE) {
-    mesh_.triangles[end] = {v, p, to_point};
-    mesh_.neighbors[end] = {last, after, begin};
-    if (last != NONE)
-      mesh_.neighbors[last][TriangleMesh::next (mesh_.sideOf (last, p))] = end;
-    if (after != NONE)
-      mesh_.neighbors[after][TriangleMesh::previous (mesh_.sideOf (after, v))] = end;
-  }
-  mesh_.triangle_of[v] = mesh_.triangle_of[p] = begin != NONE ? begin : end;
+  setFan (cut.vertex);
+  const Index beside = cut.has_begin ? fan_.triangles.back () : fan_.triangles.front ();
+  const std::uint8_t corner = mesh_.sideOf (beside, cut.vertex);
+  turnSpokes (cut, p,
+              mesh_.attach ({beside, cut.has_begin ? TriangleMesh::next (corner)
+                                                   : TriangleMesh::previous (corner)},
+                            p),
+              cut.to - cut.from);
 }
 
-} // namespace
+void
+VertexSplitter::split (const Cut& cut, Index p, Index u, Index v)
+{
+  setFan (cut.vertex);
+  const Index first = fan_.triangle (cut.from), begin = fan_.at (cut.from);
+  mesh_.split (first, p, u, v);
+  // The part of that triangle that ends the cut.
+  Index end = first;
+  for (const Index t : {u, v})
+    if (isCorner (mesh_.triangles[t], cut.vertex) && !isCorner (mesh_.triangles[t], begin))
+      end = t;
+  turnSpokes (cut, p, {end, mesh_.sideOf (end, p)}, cut.to - cut.from - 1);
+}
+
+// Flips edges between the vertex and places, one after the other, to those between the point and
+// places.
+void
+VertexSplitter::turnSpokes (const Cut& cut, Index p, MeshEdge spoke, std::size_t count)
+{
+  for (; count > 0; --count) {
+    const Index beyond = mesh_.neighbors[spoke.triangle][spoke.side];
+    mesh_.flip (spoke);
+    const Index next = cut.has_end ? beyond : spoke.triangle; // has both, and the next place
+    spoke = {next, mesh_.sideOf (next, p)};
+  }
+}
 
 std::size_t
-splitVertices (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<Index>& added, const SplitLimits& limits, const RunContext& run)
+splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector<Index>& added,
+               const SplitLimits& limits, const RunContext& run)
 {
+  mesh.triangle_of.resize (positions.size (), NONE);
+  VertexSplitter splitter (mesh, positions, limits);
+  const KdTree tree (positions, run);
+  std::vector<Neighbor> found;
+  std::vector<Index> near;
   std::size_t points = 0;
-  VertexSplitter splitter (mesh, positions, limits, run);
   ProgressLoop progress (run, added.size ());
   for (const Index p : added) {
-    points += splitter.add (p) ? 1 : 0;
     progress.next ();
+    tree.nearestIf (
+        positions[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits.near,
+        [&mesh] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
+          return mesh.triangle_of[neighbor.point] != NONE;
+        },
+        found);
+    near.clear ();
+    for (const Neighbor& neighbor : found)
+      near.push_back (neighbor.point);
+    const std::vector<Cut>& cuts =
+        splitter.cutsFor (p, {near.data (), near.data () + near.size ()});
+    if (cuts.empty ())
+      continue;
+    splitter.split (cuts.front (), p);
+    ++points;
   }
   return points;
+}
+
+std::size_t
+addMissingPoints (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+                  const SplitLimits& limits, const RunContext& run)
+{
+  std::vector<Index> missing;
+  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
+    if (mesh.triangle_of[p] == NONE)
+      missing.push_back (p);
+  const std::size_t all = missing.size ();
+  VertexSplitter splitter (mesh, positions, limits);
+  ProgressLoop progress (run);
+  // Forwards and backwards along the curve: a point may be beside others that are missing.
+  for (std::size_t before = all + 1; missing.size () < before;) {
+    before = missing.size ();
+    const auto add = [&] (Index p) {
+      progress.next ();
+      const std::vector<Cut>& cuts = splitter.cutsFor (p, neighbors.row (p));
+      if (!cuts.empty ())
+        splitter.split (cuts.front (), p);
+      return !cuts.empty ();
+    };
+    missing.erase (std::remove_if (missing.begin (), missing.end (), add), missing.end ());
+    std::reverse (missing.begin (), missing.end ());
+  }
+  return all - missing.size ();
 }
 
 } // namespace pcl::floater

@@ -3,9 +3,11 @@
 // Adds points to a mesh by vertex splits.
 #pragma once
 
+#include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "mesh/triangle_mesh.h"
 
+#include <limits>
 #include <vector>
 
 namespace pcl::floater {
@@ -27,15 +29,95 @@ struct SplitLimits
   double far = 10.0;            ///< per length from the point to the vertex that is split
 };
 
+/// A part of the fan around a vertex, from one place of the ring around it to another. A new point
+/// takes it over.
+struct Cut
+{
+  double cost = std::numeric_limits<double>::infinity ();
+  Index vertex = NONE;
+  std::size_t from = 0, to = 0;
+  // Whether a triangle with both points closes the cut there; at the boundary, one is enough.
+  bool has_begin = true, has_end = true;
+};
+
+/// Splits vertices. A split cuts the fan of a vertex along two edges, or one at the boundary, gives a
+/// new point a part of it, and closes the cuts by triangles with both points (the inverse of an edge
+/// collapse: Hoppe 1996). So neither manifold nor topology nor orientation can change.
+class VertexSplitter
+{
+public:
+  /// \param positions      must outlive this, as must the mesh
+  /// \param keeps_boundary true: no cut lets the boundary pass through the new point
+  VertexSplitter (TriangleMesh& mesh, const Positions& positions, const SplitLimits& limits,
+                  bool keeps_boundary = false)
+      : mesh_ (mesh), positions_ (positions), limits_ (limits), keeps_boundary_ (keeps_boundary)
+  {
+  }
+
+  /// The cheapest cut for a point at each of the first vertices in a row: at most SplitLimits::near,
+  /// the cheapest first. Valid until the next call. O(f^2) for fans of f triangles.
+  const std::vector<Cut>& cutsFor (Index p, Row near);
+
+  /// Gives a point its part, in the state of the mesh when the cut was found. Appends triangles.
+  void split (const Cut& cut, Index p);
+
+  /// The same with two triangles that are unused, for a cut with both ends.
+  void split (const Cut& cut, Index p, Index u, Index v);
+
+private:
+  // The triangles around a vertex and the places between them, anti-clockwise. Triangle k has the
+  // places k and k + 1 as its other corners. Around a closed fan, places count on.
+  struct Fan
+  {
+    std::vector<Index> triangles;
+    std::vector<Index> ring;
+    bool is_closed = false;
+
+    std::size_t size () const { return triangles.size (); }
+    Index triangle (std::size_t k) const { return triangles[k % size ()]; }
+    Index at (std::size_t k) const { return ring[k % ring.size ()]; }
+  };
+
+  // At a place, for the vertex v of the fan and the new point p.
+  struct Place
+  {
+    double length_v, length_p;          // of the spokes
+    double spoke_v, spoke_p;            // their costs
+    double rim;                         // change of the edge that follows
+    double first, last;                 // of a cut that begins or ends there
+    Eigen::Vector3d normal_v, normal_p; // of the triangle that follows
+    Eigen::Vector3d needle;             // normal of the triangle (v, place, p)
+  };
+
+  Eigen::Vector3d normalOf (Index t) const;
+  void setFan (Index v) { fan_.is_closed = mesh_.fan (v, fan_.triangles, fan_.ring); }
+  Cut bestCut (Index v, Index p);
+  void turnSpokes (const Cut& cut, Index p, MeshEdge spoke, std::size_t count);
+
+  TriangleMesh& mesh_;
+  const Positions& positions_;
+  SplitLimits limits_;
+  bool keeps_boundary_;
+  Fan fan_;
+  std::vector<Place> places_;                      // of the fan
+  std::vector<double> rims_, spokes_v_, spokes_p_; // sums of those before a place
+  std::vector<Cut> cuts_;
+};
+
 /// Adds points to a mesh: each, in the given order, by the cheapest split of one of the nearest
-/// vertices. A split cuts the fan of a vertex along two edges, or one at the boundary, gives the new
-/// point a part of it, and closes the cuts by triangles with both points (the inverse of an edge
-/// collapse: Hoppe 1996). So neither manifold nor topology nor orientation can change. One
-/// thread, O(log n) for each point.
+/// vertices. One thread, O(log n) for each point.
 /// \param added points without triangles
 /// \return number of points added
 std::size_t
-splitVertices (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<Index>& added, const SplitLimits& limits, const RunContext& run);
+splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector<Index>& added,
+               const SplitLimits& limits, const RunContext& run);
+
+/// Adds all points without triangles in the same way, each beside its nearest neighbours that have
+/// some, if there are any. One thread, some 10 microseconds for each point.
+/// \param neighbors of each point, nearest first
+/// \return number of points added
+std::size_t
+addMissingPoints (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+                  const SplitLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

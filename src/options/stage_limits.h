@@ -11,7 +11,6 @@
 #include "local/planes.h"
 #include "local/scatter.h"
 #include "mesh/check.h"
-#include "mesh/vertex_splits.h"
 #include "points/invalid_points.h"
 #include "points/net.h"
 #include "points/noise.h"
@@ -38,7 +37,6 @@ struct Limits
   LoopLimits loop;
   DiscLimits disc;
   CheckLimits check;
-  SplitLimits splits;
 };
 
 struct Request

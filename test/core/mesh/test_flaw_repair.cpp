@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vertices taken out and put back elsewhere, undone changes; repair of folds and of triangles that cross; the ridges
-// that it keeps. The insertion of missing points, and what the end of a mesh repairs.
+// that it keeps. What is done with missing points, and what the end of a mesh repairs.
 #include "mesh/flaw_repair.h"
 
 #include "floater/planar_delaunay.h"
 #include "mesh/finish.h"
 #include "mesh/flips.h"
 #include "mesh/folds.h"
-#include "mesh/insertion.h"
 #include "mesh/known_meshes.h"
 #include "mesh/vertex_mover.h"
 
@@ -100,7 +99,7 @@ TEST (FlawRepair, ChangesAreConsistentAndAreUndoneWithoutATrace)
     p.z () += 0.3 * random.normal ();
   TriangleMesh& mesh = sheets.mesh;
   const TriangleMesh before = mesh;
-  VertexMover mover (mesh, sheets.neighbors, sheets.cost, LARGEST_FAN, 1);
+  VertexMover mover (mesh, sheets.positions, sheets.neighbors, sheets.cost, LARGEST_FAN, 8, 1);
   const auto isChangedAndUndone = [&] {
     expectConsistent (mesh);
     const bool is_changed = mesh.triangles != before.triangles;
@@ -109,16 +108,16 @@ TEST (FlawRepair, ChangesAreConsistentAndAreUndoneWithoutATrace)
     return is_changed;
   };
   for (Index x = 0; x < GRID_SIDE; ++x) { // the boundary stays
-    EXPECT_TRUE (mover.placesFor (x, 16).empty ());
-    EXPECT_TRUE (mover.placesFor (x * GRID_SIDE, 16).empty ());
+    EXPECT_TRUE (mover.cutsFor (x).empty ());
+    EXPECT_TRUE (mover.cutsFor (x * GRID_SIDE).empty ());
   }
   EXPECT_EQ (mesh.mark (), 0U);
   std::size_t moved = 0, rebuilt = 0;
   for (Index v = 0; v < sheets.positions.size (); v += 7)
-    for (const VertexMover::Place& place : mover.placesFor (v, 6)) {
-      ASSERT_EQ (mesh.triangles, before.triangles) << "the search for places left a trace";
+    for (const Cut& cut : mover.cutsFor (v)) {
+      ASSERT_EQ (mesh.triangles, before.triangles) << "the search for cuts left a trace";
       mesh.recordChanges ();
-      mover.moveTo (v, place);
+      mover.moveTo (v, cut);
       moved += isChangedAndUndone () ? 1 : 0;
     }
   EXPECT_GT (moved, 50U);
@@ -337,7 +336,7 @@ TEST (Ridges, PointsThereGetTheNormalsOfTheMesh)
 }
 
 // A round sheet laid out as it is, some of whose inner points have no place in the plane.
-TEST (Insertion, PutsEveryPointIn)
+TEST (MissingPoints, AllJoin)
 {
   const double nowhere = std::numeric_limits<double>::quiet_NaN ();
   const Sheet sheet = disc (0.07, 7);
@@ -356,11 +355,12 @@ TEST (Insertion, PutsEveryPointIn)
     }
   }
   TriangleMesh mesh = triangulatePlane (uv, loop);
-  const std::vector<Eigen::Vector3f> normals (points.size (), Eigen::Vector3f::UnitZ ());
-  const TriangleCost cost (points.positions, normals);
-  EXPECT_EQ (insertMissingPoints (mesh, geometry.neighbors, cost, false, 1), missing);
+  const auto add = [&] {
+    return addMissingPoints (mesh, points.positions, geometry.neighbors, {}, 1);
+  };
+  EXPECT_EQ (add (), missing);
   expectDisc (mesh, points.size ());
-  EXPECT_EQ (insertMissingPoints (mesh, geometry.neighbors, cost, false, 1), 0U);
+  EXPECT_EQ (add (), 0U);
 }
 
 TEST (Finish, FindsAsManyCrossingPairsWithAndWithoutRepair)

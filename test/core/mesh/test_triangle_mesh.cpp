@@ -28,7 +28,11 @@ TEST (TriangleMesh, RandomFlipsAndSplitsKeepADisc)
   TriangleMesh mesh = connected (sheet (5).triangles, 136);
   std::size_t flips = 0;
   for (Index p = 36; p < 136; ++p) {
-    mesh.split (static_cast<Index> (random.below (mesh.triangles.size ())), p);
+    const auto t = static_cast<Index> (random.below (mesh.triangles.size ()));
+    const auto added = static_cast<Index> (mesh.triangles.size ());
+    mesh.triangles.resize (added + 2U);
+    mesh.neighbors.resize (added + 2U);
+    mesh.split (t, p, added, added + 1);
     for (int i = 0; i < 10; ++i) {
       const MeshEdge e{static_cast<Index> (random.below (mesh.triangles.size ())),
                        static_cast<std::uint8_t> (random.below (3))};
