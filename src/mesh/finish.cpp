@@ -82,8 +82,8 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     };
     remake (WIDEST);
     if (!finish.remade.is_noise)
-      finish.necks_cut =
-          cutNecks (mesh, positions, geometry, finish.remade.is_noisy, settings.limits.necks, run);
+      finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy,
+                                   settings.limits.remaking.necks, run);
     if (finish.necks_cut > 0)
       finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     if (finish.folds + finish.pairs_found + finish.remade.points () + finish.necks_cut > 0) {

@@ -6,7 +6,6 @@
 #include "local/local_geometry.h"
 #include "mesh/facing.h"
 #include "mesh/flaw_repair.h"
-#include "mesh/neck_cutting.h"
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
@@ -26,7 +25,6 @@ struct FinishLimits
   RepairLimits repair;
   NotchLimits notches;
   SplitLimits splits;
-  NeckLimits necks;
   RemakingLimits remaking;
   FacingLimits facing;
 };

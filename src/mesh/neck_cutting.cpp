@@ -246,6 +246,51 @@ private:
   std::vector<std::uint8_t> is_rim_;     // of each point: some of its triangles are not here
 };
 
+// The cuts of all loops that may be made, the cheapest first.
+std::vector<Replacement>
+findCuts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+          const LocalGeometry& geometry, const std::vector<std::uint8_t>& is_skipped,
+          const NeckLimits& limits, const RunContext& run)
+{
+  const std::vector<std::vector<Index>> loops =
+      findNeckLoops (mesh, positions, is_skipped, limits.longest_loop, run);
+  std::vector<Replacement> made (loops.size ());
+  parallelTasks (run, loops.size (), [&] (std::size_t i) {
+    made[i] = NeckCut (mesh, loops[i], positions, geometry, limits, run.withThreads (1)).cut ();
+  });
+  made.erase (std::remove_if (made.begin (), made.end (),
+                              [] (const Replacement& cut) { return cut.gone.empty (); }),
+              made.end ());
+  std::stable_sort (made.begin (), made.end (), [] (const Replacement& a, const Replacement& b) {
+    return a.cost_left < b.cost_left;
+  });
+  return made;
+}
+
+// The triangles of cuts that do not overlap, and then those of the mesh that stay.
+std::vector<Triangle>
+withCuts (const TriangleMesh& mesh, const Replacement* first, const Replacement* last,
+          std::size_t& cuts, std::vector<Index>& around)
+{
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> is_gone (mesh.triangles.size (), 0);
+  for (; first != last; ++first) {
+    if (std::any_of (first->gone.begin (), first->gone.end (),
+                     [&] (Index t) { return is_gone[t] != 0; }))
+      continue;
+    for (const Index t : first->gone) {
+      is_gone[t] = 1;
+      around.insert (around.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
+    }
+    triangles.insert (triangles.end (), first->triangles.begin (), first->triangles.end ());
+    ++cuts;
+  }
+  for (Index t = 0; t < mesh.triangles.size (); ++t)
+    if (is_gone[t] == 0)
+      triangles.push_back (mesh.triangles[t]);
+  return triangles;
+}
+
 } // namespace
 
 std::size_t
@@ -256,35 +301,13 @@ cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   std::size_t cuts = 0;
   is_skipped.resize (positions.size (), 0);
   while (true) {
-    const std::vector<std::vector<Index>> loops =
-        findNeckLoops (mesh, positions, is_skipped, limits.longest_loop, run);
-    std::vector<Replacement> made (loops.size ());
-    parallelTasks (run, loops.size (), [&] (std::size_t i) {
-      made[i] = NeckCut (mesh, loops[i], positions, geometry, limits, run.withThreads (1)).cut ();
-    });
-    std::stable_sort (made.begin (), made.end (), [] (const Replacement& a, const Replacement& b) {
-      return a.cost_left < b.cost_left;
-    });
-    std::vector<std::uint8_t> is_gone (loops.empty () ? 0 : mesh.triangles.size (), 0);
-    TriangleMesh changed;
-    std::vector<Index> again; // points around the cuts: elsewhere, no loop is cut in the next round
-    for (const Replacement& cut : made) {
-      if (cut.gone.empty () || std::any_of (cut.gone.begin (), cut.gone.end (),
-                                            [&] (Index t) { return is_gone[t] != 0; }))
-        continue;
-      for (const Index t : cut.gone) {
-        is_gone[t] = 1;
-        again.insert (again.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
-      }
-      changed.triangles.insert (changed.triangles.end (), cut.triangles.begin (),
-                                cut.triangles.end ());
-      ++cuts;
-    }
-    if (changed.triangles.empty ())
+    const std::vector<Replacement> made =
+        findCuts (mesh, positions, geometry, is_skipped, limits, run);
+    if (made.empty ())
       return cuts;
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      if (is_gone[t] == 0)
-        changed.triangles.push_back (mesh.triangles[t]);
+    std::vector<Index> again; // points around the cuts: elsewhere, no loop is cut in the next round
+    TriangleMesh changed;
+    changed.triangles = withCuts (mesh, made.data (), made.data () + made.size (), cuts, again);
     if (!changed.connect (positions.size (), run))
       throw std::logic_error ("a neck was cut so that the mesh does not fit");
     mesh = std::move (changed);
@@ -296,6 +319,22 @@ cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       is_far[p] = is_skipped[p];
     is_skipped = std::move (is_far);
   }
+}
+
+bool
+cutOneNeck (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const LocalGeometry& geometry, const std::vector<std::uint8_t>& is_skipped,
+            NeckLimits limits, const RunContext& run,
+            const std::function<bool (std::vector<Triangle>)>& take)
+{
+  limits.cost_left = std::numeric_limits<double>::infinity ();
+  const std::vector<Replacement> made =
+      findCuts (mesh, positions, geometry, is_skipped, limits, run);
+  std::size_t cuts = 0;
+  std::vector<Index> around;
+  return std::any_of (made.begin (), made.end (), [&] (const Replacement& cut) {
+    return take (withCuts (mesh, &cut, &cut + 1, cuts, around));
+  });
 }
 
 } // namespace pcl::floater

@@ -8,6 +8,7 @@
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace pcl::floater {
@@ -36,6 +37,15 @@ std::size_t
 cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
           const LocalGeometry& geometry, std::vector<std::uint8_t> is_skipped,
           const NeckLimits& limits, const RunContext& run);
+
+/// Tries the cuts of all necks one by one, the cheapest first, whatever it costs, until one is taken.
+/// \param take whether the mesh with these triangles is taken
+/// \return whether one is
+bool
+cutOneNeck (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+            const LocalGeometry& geometry, const std::vector<std::uint8_t>& is_skipped,
+            NeckLimits limits, const RunContext& run,
+            const std::function<bool (std::vector<Triangle>)>& take);
 
 /// Loops of at most `longest` edges around a neck with bent edges: a bridge between two parts of a
 /// mesh, or a tunnel through a wall. Around each point of an edge that is bent by more than 60

@@ -47,6 +47,7 @@ public:
   }
 
   bool isManifold () const { return is_manifold_; }
+  const TriangleMesh& mesh () const { return mesh_; }
 
   /// Points inside that have triangles, but not a single fan, closed but at boundaries that stay.
   std::vector<Index> misfits (const RunContext& run) const

@@ -5,6 +5,8 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "local/local_geometry.h"
+#include "mesh/neck_cutting.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
 
@@ -62,10 +64,18 @@ public:
         return std::nullopt;
       joinFans (at.place, made);
       dropIslands (at.place, made);
-      const PieceInPlace after (at.place, made.triangles, made.is_turned, run_);
-      const std::vector<Index> misfits = after.misfits (run_);
+      std::optional<PieceInPlace> after (std::in_place, at.place, made.triangles, made.is_turned,
+                                         run_);
+      const std::vector<Index> misfits = after->misfits (run_);
       if (misfits.empty ()) {
-        if (!isBetter (after, PieceInPlace (at.place, at.old, {}, run_), is_whole))
+        const PieceInPlace before (at.place, at.old, {}, run_);
+        while (!is_whole && after->isManifold () &&
+               after->twiceHandles () > before.twiceHandles ()) {
+          if (!cutHandle (at, *after, made))
+            return std::nullopt;
+          after.emplace (at.place, made.triangles, made.is_turned, run_);
+        }
+        if (!isBetter (*after, before))
           return std::nullopt;
         return newZone (std::move (free), at, made);
       }
@@ -101,14 +111,61 @@ private:
     return TRIED_SHARE * flawed > tried;
   }
 
-  bool isBetter (const PieceInPlace& after, const PieceInPlace& before, bool is_whole) const
+  bool isBetter (const PieceInPlace& after, const PieceInPlace& before) const
   {
     const double handles =
         0.5 * static_cast<double> (after.twiceHandles () - before.twiceHandles ());
-    return after.isManifold () && (handles <= 0.0 || is_whole) &&
+    return after.isManifold () &&
            static_cast<double> (after.faults (run_)) +
                    limits_.handle_faults * std::max (handles, 0.0) <=
                limits_.faults_left * static_cast<double> (before.faults (run_));
+  }
+
+  // The geometry of a place, as far as the search for necks needs it.
+  LocalGeometry geometryOf (const PlaceOfMesh& at, const TriangleMesh& mesh) const
+  {
+    LocalGeometry geometry;
+    const std::size_t points = at.points.size ();
+    geometry.neighbors = makeCsrLists (points, [&] (const auto& emit) {
+      for (Index i = 0; i < points; ++i)
+        for (const Index q : neighbors_.row (at.points[i]))
+          if (const auto found = std::lower_bound (at.points.begin (), at.points.end (), q);
+              found != at.points.end () && *found == q)
+            emit (i, static_cast<Index> (found - at.points.begin ()));
+    });
+    geometry.spacing = valuesAt (spacing_, at.points);
+    geometry.stars.normals.assign (points, Eigen::Vector3f::Zero ());
+    for (const Triangle& t : mesh.triangles)
+      for (const Index p : t)
+        geometry.stars.normals[p] += areaVectorOf (t, at.place.positions).cast<float> ();
+    return geometry;
+  }
+
+  // Cuts a handle along the cheapest loop of free points.
+  // \return whether there is one
+  bool cutHandle (const PlaceOfMesh& at, const PieceInPlace& piece, RemadePlace& made) const
+  {
+    const Place& place = at.place;
+    std::multiset<Triangle> frame;
+    for (std::size_t i = 0; i < place.frame.size (); ++i)
+      frame.insert (turnedIf (made.is_turned[place.patch_of[i]] != 0, place.frame[i]));
+    std::vector<std::uint8_t> is_fixed;
+    for (const std::uint8_t is_free : place.is_free)
+      is_fixed.push_back (is_free == 0 ? 1 : 0);
+    const auto take = [&] (std::vector<Triangle> triangles) {
+      const std::size_t all = triangles.size ();
+      triangles.erase (std::remove_if (triangles.begin (), triangles.end (),
+                                       [&] (const Triangle& t) { return frame.count (t) > 0; }),
+                       triangles.end ());
+      const PieceInPlace after (place, triangles, made.is_turned, run_);
+      if (triangles.size () + frame.size () != all || !after.isManifold () ||
+          after.twiceHandles () >= piece.twiceHandles () || !after.misfits (run_).empty ())
+        return false;
+      made.triangles = std::move (triangles);
+      return true;
+    };
+    return cutOneNeck (piece.mesh (), place.positions, geometryOf (at, piece.mesh ()), is_fixed,
+                       limits_.necks, run_, take);
   }
 
   static NewZone newZone (std::vector<Index> free, const PlaceOfMesh& at, const RemadePlace& made)

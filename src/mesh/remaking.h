@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mesh/disturbed_zones.h"
+#include "mesh/neck_cutting.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,6 +14,7 @@ namespace pcl::floater {
 struct RemakingLimits
 {
   DisturbanceLimits disturbance;
+  NeckLimits necks;
   double longest_edge = 6.0; ///< in mean edges around its ends before; a longer one is a lid on an
                              ///< opening
   double faults_left = 0.6; ///< share of the faults of a zone that may be left. A slit along a true

@@ -364,6 +364,7 @@ TEST_P (AnyRealCloud, IsWhatItIs)
   const Result result = meshOf (surface.points, options);
   expectTopologyOf (result, surface);
   EXPECT_LE (result.report.check.folds, known.most_folds);
+  EXPECT_EQ (result.report.check.self_intersections, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P (

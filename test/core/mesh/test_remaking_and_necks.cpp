@@ -354,6 +354,27 @@ TEST (NeckCutting, LeavesOutWhatIsSkipped)
   expectTopology (sheets.mesh.triangles, sheets.positions.size (), 1, 0, 2);
 }
 
+// One of two bridges goes: the second that is tried.
+TEST (NeckCutting, CutsOneNeckThatMayBe)
+{
+  TwoSheets sheets = joinedSheets ({95, 290});
+  std::size_t tried = 0;
+  std::vector<Triangle> taken;
+  const auto take = [&] (std::vector<Triangle> triangles) {
+    taken = std::move (triangles);
+    expectTopology (taken, sheets.positions.size (), 1, 0, 2);
+    return ++tried == 2;
+  };
+  const auto cut = [&] (const std::vector<std::uint8_t>& is_skipped) {
+    return cutOneNeck (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, {}, 1, take);
+  };
+  EXPECT_TRUE (cut ({}));
+  EXPECT_EQ (tried, 2U);
+  sheets.mesh = connected (taken, sheets.positions.size ());
+  expectConsistent (sheets.mesh);
+  EXPECT_FALSE (cut (std::vector<std::uint8_t> (sheets.positions.size (), 1)));
+}
+
 TEST (NeckCutting, KeepsThinTubes)
 {
   for (const Index across : {3U, 4U, 6U, 9U, 12U}) {
