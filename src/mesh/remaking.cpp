@@ -248,17 +248,17 @@ private:
         made.triangles.end ());
   }
 
-  double meanEdge (Index p) const
+  // The mean edge around a point, or its spacing if that is larger.
+  double usualEdge (Index p) const
   {
     std::vector<Index> fan;
     mesh_.fan (p, fan);
-    if (fan.empty ())
-      return static_cast<double> (spacing_[p]);
     double sum = 0.0;
     for (const Index t : fan)
       for (std::uint8_t side = 0; side < 3; ++side)
         sum += (positions_[mesh_.from ({t, side})] - positions_[mesh_.to ({t, side})]).norm ();
-    return sum / static_cast<double> (3 * fan.size ());
+    const double count = static_cast<double> (3 * std::max<std::size_t> (fan.size (), 1));
+    return std::max (static_cast<double> (spacing_[p]), sum / count);
   }
 
   bool hasLid (const RemadePlace& made, const std::vector<Index>& points) const
@@ -267,7 +267,7 @@ private:
       for (std::size_t k = 0; k < 3; ++k) {
         const Index p = points[t[k]], q = points[t[(k + 1) % 3]];
         if ((positions_[p] - positions_[q]).norm () >
-            limits_.longest_edge * std::max (meanEdge (p), meanEdge (q)))
+            limits_.longest_edge * std::max (usualEdge (p), usualEdge (q)))
           return true;
       }
       return false;
