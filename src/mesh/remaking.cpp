@@ -283,16 +283,6 @@ private:
   const RunContext run_;
 };
 
-// True if each point was in a zone of this size, within a tenth, that was tried in vain. Large zones
-// hardly become smaller with fewer rings, and would come out wrong again. The tenth is by hand.
-bool
-hasFailed (Row zone, const std::vector<std::size_t>& failed)
-{
-  return std::all_of (zone.begin (), zone.end (), [&] (Index p) {
-    return 10 * failed[p] >= 9 * zone.size () && 10 * failed[p] <= 11 * zone.size ();
-  });
-}
-
 // All points as one zone.
 DisturbedZones
 zoneOfAll (std::size_t points)
@@ -315,7 +305,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
-  int last = remade.failed.empty () ? 0 : 1; // 0: all points, if many are in zones
+  int last = remade.is_noisy.empty () ? 0 : 1; // 0: all points, if many are in zones
   for (bool whole_loops = true; rings >= last;) {
     const bool is_whole = rings == 0;
     DisturbedZones zones =
@@ -333,17 +323,14 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       --rings;
     whole_loops = false;
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
-    std::vector<std::uint8_t> is_noise (made.size (), 0), is_tried = is_noise;
+    std::vector<std::uint8_t> is_noise (made.size (), 0);
     if (made.empty ())
       return;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,
                                run.withThreads (1));
-    remade.failed.resize (positions.size (), 0);
     remade.is_noisy.resize (positions.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      is_tried[zone] = is_whole || !hasFailed (zones.points.row (zone), remade.failed) ? 1 : 0;
-      if (is_tried[zone] != 0)
-        made[zone] = remaker.remake (zones.points.row (zone), is_whole, is_noise[zone]);
+      made[zone] = remaker.remake (zones.points.row (zone), is_whole, is_noise[zone]);
     });
     if (is_whole && !made[0]) // what is known of the zones in it remains true
       return;
@@ -351,12 +338,10 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     spliced.triangles = spliceZones (mesh, made);
     std::size_t noisy_points = 0;
     for (std::size_t zone = 0; zone < made.size (); ++zone) {
-      const std::size_t size = zones.points.row (zone).size ();
-      for (const Index p : is_tried[zone] != 0 ? zones.points.row (zone) : Row{}) {
-        remade.failed[p] = made[zone] ? 0 : size;
-        remade.is_noisy[p] = size >= LARGE_ZONE ? is_noise[zone] : 0;
-        noisy_points += is_noise[zone];
-      }
+      const Row points = zones.points.row (zone);
+      for (const Index p : points)
+        remade.is_noisy[p] = points.size () >= LARGE_ZONE ? is_noise[zone] : 0;
+      noisy_points += is_noise[zone] * points.size ();
     }
     remade.is_noise = 4 * noisy_points > positions.size ();
     if (remade.is_noise)

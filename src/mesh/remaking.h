@@ -29,8 +29,6 @@ struct RemakingLimits
 struct RemadeZones
 {
   std::vector<std::uint8_t> is_remade; ///< of each point: its triangles were made anew; or empty
-  std::vector<std::size_t> failed;     ///< of each point: size of the last zone with it that was
-                                       ///< tried in vain; 0: none; or empty
   std::vector<std::uint8_t> is_noisy;  ///< of each point: the last zone with it was noise, and a
                                        ///< large one; or empty
   bool is_noise = false;               ///< the cloud is noise, so that no zone can be made anew
@@ -49,9 +47,8 @@ struct RemadeZones
 /// around; where these touch at a boundary, one more triangle joins them. A zone stays as it was if
 /// its new triangles fit nowhere, have a handle more that no loop cuts (the cheapest one that does is
 /// cut, whatever it costs: see cutOneNeck), a lid on an opening, or not clearly fewer faults
-/// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it was
-/// tried in vain before, within a tenth as large, or if it is large and some places in it are noise
-/// (see isNoise). Components may come out with either side as the front. Points of new components by
+/// (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it is
+/// large and some places in it are noise (see isNoise). Components may come out with either side as the front. Points of new components by
 /// themselves, and those whose two sides cannot be told, are left without a triangle. O(n), plus some
 /// 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh

@@ -178,25 +178,6 @@ TEST (Remaking, MakesAZoneAnewUnlessItIsNoise)
   }
 }
 
-TEST (Remaking, TriesNoZoneOfOneSizeTwice)
-{
-  for (const bool has_failed : {false, true}) {
-    Spheres spheres (0.1);
-    exchange (spheres.mesh, 100, 121);
-    CrossingPairs crossing = spheres.crossing ();
-    const DisturbedZones zones =
-        findDisturbedZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing,
-                            crossing, 1, false, {}, 1);
-    ASSERT_EQ (zones.points.rows (), 1U);
-    RemadeZones remade;
-    remade.failed.assign (spheres.positions.size (), has_failed ? zones.points.row (0).size () : 0);
-    remakeZones (spheres.mesh, spheres.positions, spheres.neighbors, spheres.spacing, crossing, 1,
-                 remade, {}, 1);
-    EXPECT_EQ (remade.points (), has_failed ? 0 : zones.points.row (0).size ());
-    EXPECT_EQ (crossing.empty (), !has_failed);
-  }
-}
-
 // A torus comes back from a mesh as of a sphere, at first. Later, no handle may come in.
 TEST (Remaking, MakesAllPointsAnewIfMostAreDisturbed)
 {
@@ -210,7 +191,7 @@ TEST (Remaking, MakesAllPointsAnewIfMostAreDisturbed)
     CrossingPairs crossing = findSelfIntersections (wrong, torus.positions, 1);
     RemadeZones remade;
     if (!is_first)
-      remade.failed.assign (torus.positions.size (), 0);
+      remade.is_noisy.assign (torus.positions.size (), 0);
     remakeZones (mesh, torus.positions, nearestOf (torus.positions, 20),
                  std::vector<float> (torus.positions.size (), 0.2F), crossing, 3, remade, {}, 1);
     expectTopology (mesh.triangles, torus.positions.size (), 1, is_first ? 0 : 2, 0);
