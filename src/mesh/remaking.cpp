@@ -182,7 +182,7 @@ private:
   }
 
   // Where a boundary that stays has new triangles apart from the others at a point, one more fills
-  // the narrower gap between them.
+  // the narrower gap between them. Only a generated fold with a ragged boundary needs it.
   static void joinFans (const Place& place, RemadePlace& made)
   {
     std::vector<std::map<Index, Index>> around (place.positions.size ()); // edges, by their begins
