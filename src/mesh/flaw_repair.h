@@ -23,9 +23,8 @@ struct RepairLimits
   std::size_t passes = 6;       ///< over the flawed triangles; the first two do most of the work
 
   /// Patches are rebuilt around a triangle: its corners and those of the triangles that it crosses,
-  /// or else of those beside it, then also one ring around. Over 25 pairs of sheets with a fifth of
-  /// their points swapped, 480 pairs were left without this, 300 with one size of patch, 266 with
-  /// two, as with three, and 266 with 2, 4 or 8 orders.
+  /// or else of those beside it, then also one ring around. Without this, three of four terrains
+  /// with stacked points keep 6 to 19 crossing pairs, and 0 to 7 with it.
   std::size_t rebuilt_rings = 2;   ///< sizes of the patches
   std::size_t rebuilt_orders = 4;  ///< reinsertion orders of the vertices of a patch
   std::size_t largest_patch = 200; ///< vertices; with more crossings, a patch is no longer local
