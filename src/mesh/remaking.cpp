@@ -11,8 +11,6 @@
 #include "mesh/zone_splicing.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -62,7 +60,6 @@ public:
         is_noise = isNoise (made.flawed, zone.size ()) ? 1 : 0;
       if (!made.is_right || hasLid (made, at.points))
         return std::nullopt;
-      joinFans (at.place, made);
       dropIslands (at.place, made);
       std::optional<PieceInPlace> after (std::in_place, at.place, made.triangles, made.is_turned,
                                          run_);
@@ -179,52 +176,6 @@ private:
       if (const Index patch = at.place.patch_of[i]; is_known[patch]++ == 0)
         zone.patches.push_back ({at.frame[i], made.is_turned[patch] != 0});
     return zone;
-  }
-
-  // Where a boundary that stays has new triangles apart from the others at a point, one more fills
-  // the narrower gap between them. Only a generated fold with a ragged boundary needs it.
-  static void joinFans (const Place& place, RemadePlace& made)
-  {
-    std::vector<std::map<Index, Index>> around (place.positions.size ()); // edges, by their begins
-    std::set<std::array<Index, 2>> edges;
-    const auto add = [&] (const Triangle& t) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Index p = t[i], q = t[(i + 1) % 3], r = t[(i + 2) % 3];
-        edges.insert ({p, q});
-        if (place.is_boundary[p] != 0 && place.is_whole[p] != 0)
-          around[p].emplace (q, r);
-      }
-    };
-    for (std::size_t i = 0; i < place.frame.size (); ++i)
-      add (turnedIf (made.is_turned[place.patch_of[i]] != 0, place.frame[i]));
-    std::for_each (made.triangles.begin (), made.triangles.end (), add);
-    for (Index p = 0; p < around.size (); ++p) {
-      std::set<Index> ends;
-      for (const auto& [q, r] : around[p])
-        ends.insert (r);
-      std::vector<std::array<Index, 2>> fans; // first and last point of the open ones
-      for (const auto& [q, r] : around[p])
-        if (ends.count (q) == 0) {
-          Index last = r;
-          for (std::size_t k = 0; k < around[p].size () && around[p].count (last) > 0; ++k)
-            last = around[p].at (last);
-          fans.push_back ({q, last});
-        }
-      if (fans.size () != 2)
-        continue;
-      const auto cosine = [&] (Index q, Index r) {
-        const Eigen::Vector3d &a = place.positions[p], &b = place.positions[q],
-                              &c = place.positions[r];
-        return (b - a).normalized ().dot ((c - a).normalized ());
-      };
-      if (cosine (fans[0][1], fans[1][0]) < cosine (fans[1][1], fans[0][0]))
-        std::swap (fans[0], fans[1]);
-      const Index q = fans[0][1], r = fans[1][0];
-      if (q == r || edges.count ({q, r}) > 0)
-        continue;
-      made.triangles.push_back ({p, q, r});
-      add (made.triangles.back ());
-    }
   }
 
   // Components without a triangle of the frame are no part of the surface, if there is a frame.

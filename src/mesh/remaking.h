@@ -44,11 +44,10 @@ struct RemadeZones
 /// gaps all along. If a quarter of the points are in zones even then, and no boundary stays, all
 /// are made anew at once the first time, as a body of thin walls needs; only then may handles come
 /// in, which cutNecks () may cut. A zone grows by points at which its new triangles do not fit to
-/// those around; where these touch at a boundary, one more triangle joins them. A zone stays as it
-/// was if its new triangles fit nowhere, have a handle more that no loop cuts (the cheapest one
-/// that does is cut, whatever it costs: see cutOneNeck), a lid on an opening, or not clearly fewer
-/// faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if
-/// it is large and some places in it are noise (see isNoise). Components may come out with either
+/// those around. It stays as it was if its new triangles fit nowhere, have a handle more that no
+/// loop cuts (the cheapest one that does is cut, whatever it costs: see cutOneNeck), a lid on an
+/// opening, or not clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh
+/// contradict each other; also if it is large and some places in it are noise (see isNoise). Components may come out with either
 /// side as the front. Points of new components by themselves, and those whose two sides cannot be
 /// told, are left without a triangle. O(n), plus some 60 microseconds for a point of a zone; zones
 /// on all threads.
