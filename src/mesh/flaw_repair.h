@@ -43,8 +43,8 @@ struct RepairLimits
 /// What counts as a flaw besides triangles that cross, and what a change must not make worse.
 enum class Repair
 {
-  BEFORE_REMAKING, ///< turned triangles (see CostLimits), and those more than 90 degrees from a
-                   ///< neighbouring one; the sum of folded edges and crossing pairs
+  BEFORE_REMAKING, ///< turned triangles (see CostLimits), flat ones, and those more than 90 degrees
+                   ///< from a neighbouring one; the sum of folded edges and crossing pairs
   AT_THE_END       ///< triangles at folded edges (isFold); the folded edges, and the crossing pairs
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl::floater {
 TriangleCost::Value
@@ -71,6 +72,15 @@ TriangleCost::isLong (const Triangle& corners) const
   }
   const double longest = limits_.longest_edge * spacings / 3.0;
   return sqr_longest > longest * longest;
+}
+
+bool
+TriangleCost::isFlat (const Triangle& corners) const
+{
+  const Eigen::Vector3d ab = positions_[corners[1]] - positions_[corners[0]],
+                        ac = positions_[corners[2]] - positions_[corners[0]];
+  constexpr double HEIGHT = std::numeric_limits<float>::epsilon ();
+  return ab.cross (ac).norm () <= HEIGHT * std::max (ab.squaredNorm (), ac.squaredNorm ());
 }
 
 bool

@@ -92,6 +92,7 @@ expectGeometry (const Result& result, const KnownSurface& surface, const Case& o
   EXPECT_LE (static_cast<double> (result.report.check.folds), allowedFolds (surface));
   if (!surface.is_even)
     return;
+  EXPECT_EQ (result.report.check.degenerate_triangles, 0U);
   const auto [mean_edge, area] = meanEdgeAndArea (result.triangles, surface.points);
   EXPECT_GT (mean_edge, LEAST_MEAN_EDGE);
   if (one.holes.policy == HolePolicy::AUTO) {
@@ -268,9 +269,9 @@ cases ()
       const double half = 20.0 * std::tan (half_angle * PI / 180.0);
       return sharp (prism ({{{0, 0}, {20, -half}, {40, 0}, {20, half}}}, 30.0, seed), 66.0);
     });
-  for (const std::uint64_t seed : {1, 2, 3, 10, 14})
+  for (const std::uint64_t seed : {1, 2, 3, 10, 14, 201})
     add ("fold_seed_" + std::to_string (seed), [=] { return foldedSheet (seed); });
-  for (const std::uint64_t seed : {6, 12, 13, 21, 23})
+  for (const std::uint64_t seed : {3, 12, 13, 21, 23})
     add ("fold_ragged_seed_" + std::to_string (seed), [=] { return foldedSheet (seed, true); });
   // Outliers, several components.
   add ("sphere_outliers", [] { return withOutliers (sphere (3000, 6), 20, 12.0, 7); });
