@@ -9,10 +9,6 @@
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // The points that are not on the user's loop. Equal points are represented by one of them.

@@ -15,10 +15,6 @@
 #include "report/report_mesh.h"
 #include "view/view_method.h"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // What a method has made.
@@ -298,7 +294,7 @@ countContradictions (const Points& points, const Viewpoint& viewpoint, const Vie
                      const std::vector<Index>& unused, const EvidenceLimits& limits)
 {
   std::vector<double> depths;
-  for (const Eigen::Vector3d& position : points.positions)
+  for (const Vector3d& position : points.positions)
     depths.push_back (rayTo (position, viewpoint).depth);
   const double least = viewpoint.is_far ? -std::numeric_limits<double>::infinity ()
                                         : limits.at_sensor * median (depths);

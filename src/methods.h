@@ -11,8 +11,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <optional>
-
 namespace pcl::floater {
 /// A disc that is laid out in the plane.
 Problem

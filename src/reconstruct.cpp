@@ -14,12 +14,6 @@
 #include "report/report_cloud.h"
 #include "report/verdict.h"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <optional>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as others

@@ -9,8 +9,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <vector>
-
 namespace pcl::floater {
 /// Stage results that were computed before. They must equal what reconstruct () would compute; then
 /// the mesh is the same. The functions are called in the order of a run.

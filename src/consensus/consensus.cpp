@@ -5,25 +5,21 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
 // Sets the normal agreement and `clockwise` from the corners.
 void
-setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
-                    const std::vector<Eigen::Vector3f>& normals, Candidate& candidate)
+setNormalAgreement (const Positions& positions, const Normals& normals, Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
-  const Eigen::Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
-  const Eigen::Vector3f unit = (normal / normal.norm ()).cast<float> ();
+  const Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
+  const Vector3f unit = (normal / normal.norm ()).cast<float> ();
   candidate.normal_agreement = 1.0F;
   candidate.clockwise = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3f& at_corner = normals[candidate.corners[i]];
+    const Vector3f& at_corner = normals[candidate.corners[i]];
     candidate.normal_agreement =
         std::min (candidate.normal_agreement, std::abs (unit.dot (at_corner)));
     if (normal.dot (at_corner.cast<double> ()) < 0.0)
@@ -35,10 +31,10 @@ setNormalAgreement (const std::vector<Eigen::Vector3d>& positions,
 // one of the other corners to the other, less than half a turn.
 struct Sector
 {
-  Index first, last;        // the other corners
-  Eigen::Vector2d from, to; // their directions
+  Index first, last; // the other corners
+  Vector2d from, to; // their directions
 
-  bool contains (const Eigen::Vector2d& direction) const
+  bool contains (const Vector2d& direction) const
   {
     return cross (from, direction) > 0.0 && cross (direction, to) > 0.0;
   }
@@ -57,8 +53,7 @@ overlap (const Sector& a, const Sector& b)
 class ConsensusBuilder
 {
 public:
-  ConsensusBuilder (const std::vector<Eigen::Vector3d>& positions,
-                    const std::vector<Eigen::Vector3f>& normals)
+  ConsensusBuilder (const Positions& positions, const Normals& normals)
       : positions_ (positions), normals_ (normals), orientation_ (positions.size ()),
         last_sector_ (positions.size (), UNWATCHED)
   {
@@ -135,8 +130,8 @@ private:
     return false;
   }
 
-  const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<Eigen::Vector3f>& normals_;
+  const Positions& positions_;
+  const Normals& normals_;
   Orientation orientation_;
   std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
   std::vector<TakenSector> sectors_;
@@ -146,9 +141,9 @@ private:
 } // namespace
 
 std::vector<Candidate>
-findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const CandidateLimits& limits, const RunContext& run)
+findCandidates (const Positions& positions, const Stars& stars, const Normals& normals,
+                const std::vector<float>& spacing, const CandidateLimits& limits,
+                const RunContext& run)
 {
   RangeLists<Candidate> ranges (positions.size ());
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
@@ -184,9 +179,8 @@ findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& star
 }
 
 Consensus
-buildConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> candidates,
-                const CandidateLimits& limits, std::vector<Eigen::Vector3f>& normals,
-                const RunContext& run)
+buildConsensus (const Positions& positions, std::vector<Candidate> candidates,
+                const CandidateLimits& limits, Normals& normals, const RunContext& run)
 {
   // In the order of their offers: those of three votes by their class of normal agreement, so that the
   // orientation spreads along triangles that agree best, like a minimum spanning forest.

@@ -8,10 +8,6 @@
 #include "local/stars.h"
 #include "mesh/triangle_mesh.h"
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
 namespace pcl::floater {
 /// A triangle in the stars of one, two or all three of its corners.
 struct Candidate
@@ -55,9 +51,9 @@ struct CandidateLimits
 /// \param normals for the normal agreement: those of the stars, or others on the same side
 /// \param spacing of each point (see localSpacing)
 std::vector<Candidate>
-findCandidates (const std::vector<Eigen::Vector3d>& positions, const Stars& stars,
-                const std::vector<Eigen::Vector3f>& normals, const std::vector<float>& spacing,
-                const CandidateLimits& limits, const RunContext& run);
+findCandidates (const Positions& positions, const Stars& stars, const Normals& normals,
+                const std::vector<float>& spacing, const CandidateLimits& limits,
+                const RunContext& run);
 
 /// Sets of points whose normals are oriented relative to each other. A triangle joins the sets of
 /// its corners, by its orientation relative to each normal. Amortized almost O(1) for each call
@@ -84,7 +80,7 @@ public:
   Triangle turned (Triangle corners, std::uint8_t clockwise);
 
   /// Orients the normals of each set consistently.
-  void turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+  void turn (Normals& normals, const RunContext& run);
 
 private:
   // The place of a corner; `flipped`: the triangle is clockwise seen from the front of its set.
@@ -123,9 +119,8 @@ struct Consensus
 /// \param normals    in: unit normals by which the candidates were found; out: oriented like the
 ///     triangles
 Consensus
-buildConsensus (const std::vector<Eigen::Vector3d>& positions, std::vector<Candidate> candidates,
-                const CandidateLimits& limits, std::vector<Eigen::Vector3f>& normals,
-                const RunContext& run);
+buildConsensus (const Positions& positions, std::vector<Candidate> candidates,
+                const CandidateLimits& limits, Normals& normals, const RunContext& run);
 
 /// Keeps the fan of most votes around every point, and removes small islands. An island is an open
 /// component with points of a larger component among its nearest neighbours: it lies in a hole of

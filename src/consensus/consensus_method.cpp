@@ -4,22 +4,18 @@
 
 #include "core/order_statistics.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // Makes the manifold part of the consensus, before its holes are filled, and orients the normals like
 // it. O(n + m log m) for m doubtful candidates.
 // \param geometry as of makeSurface ()
 void
-makeConsensusMesh (Surface& surface, const std::vector<Eigen::Vector3d>& positions,
-                   LocalGeometry& geometry, const ConsensusLimits& limits, const RunContext& run)
+makeConsensusMesh (Surface& surface, const Positions& positions, LocalGeometry& geometry,
+                   const ConsensusLimits& limits, const RunContext& run)
 {
   // Mean normals at sharp edges, where both faces are visible from them.
-  std::vector<Eigen::Vector3f> normals = std::move (geometry.stars.normals);
-  std::vector<Eigen::Vector3f> smoothed =
-      smoothedNormals (positions, geometry.neighbors, normals, run);
+  Normals normals = std::move (geometry.stars.normals);
+  Normals smoothed = smoothedNormals (positions, geometry.neighbors, normals, run);
   std::vector<Candidate> candidates = findCandidates (positions, geometry.stars, smoothed,
                                                       geometry.spacing, limits.candidates, run);
   geometry.stars = {};
@@ -41,8 +37,8 @@ closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometr
             const HoleOptions& holes, const SurfaceLimits& limits, const RunContext& run)
 {
   TriangleMesh& mesh = surface.mesh;
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
-  const std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  const Positions& positions = points.workingPositions ();
+  const Normals& normals = geometry.stars.normals;
   const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
@@ -62,15 +58,15 @@ closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometr
 // Orients the normals of points without triangle like the mean normal of the vertices among their
 // neighbours.
 void
-orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
-                      std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors, Normals& normals,
+                      const RunContext& run)
 {
   ProgressLoop progress (run);
   for (Index p = 0; p < normals.size (); ++p) {
     progress.next ();
     if (mesh.triangle_of[p] != NONE)
       continue;
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+    Vector3f sum = Vector3f::Zero ();
     for (const Index q : neighbors.row (p))
       if (mesh.triangle_of[q] != NONE)
         sum += normals[q];
@@ -83,7 +79,7 @@ orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors,
 void
 leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
 {
-  std::vector<std::uint8_t> is_boundary (mesh.triangle_of.size (), 0);
+  Flags is_boundary (mesh.triangle_of.size (), 0);
   for (const MeshEdge edge : boundaryEdges (mesh))
     is_boundary[mesh.from (edge)] = 1;
   const auto isClosed = [&is_boundary] (const BoundaryLoop& loop) {

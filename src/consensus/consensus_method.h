@@ -10,8 +10,6 @@
 #include "mesh/loops.h"
 #include "points/points.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of the consensus mesh.
 struct ConsensusLimits

@@ -6,10 +6,8 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -131,7 +129,7 @@ private:
 
   std::vector<Triangle>& triangles_;
   const std::vector<std::uint8_t>& votes_;
-  std::vector<std::uint8_t> kept_;
+  Flags kept_;
   const CsrLists around_;   // of each point, its triangles
   std::vector<Index> ring_; // triangles around the current point
   std::vector<Index> dirty_;
@@ -145,7 +143,7 @@ removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smalle
   const MeshComponents components = findComponents (mesh, run);
   const std::vector<Index>& component = components.of_triangle;
   std::vector<std::size_t> size (components.count, 0);
-  std::vector<std::uint8_t> is_closed (components.count, 1), is_island (components.count, 0);
+  Flags is_closed (components.count, 1), is_island (components.count, 0);
   ProgressLoop progress (run);
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <unordered_set>
-#include <utility>
 
 namespace pcl::floater {
 SignedSets::Place
@@ -79,7 +77,7 @@ Orientation::turned (Triangle corners, std::uint8_t clockwise)
 }
 
 void
-Orientation::turn (std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+Orientation::turn (Normals& normals, const RunContext& run)
 {
   ProgressLoop progress (run);
   for (Index p = 0; p < normals.size (); ++p) {

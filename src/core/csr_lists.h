@@ -5,9 +5,6 @@
 
 #include "core/types.h"
 
-#include <cstddef>
-#include <functional>
-#include <limits>
 #include <stdexcept>
 #include <string>
 

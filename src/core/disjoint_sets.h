@@ -5,11 +5,6 @@
 
 #include "core/types.h"
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Disjoint sets of the elements 0 to size - 1. The smallest element of a set represents it,
 /// whatever the order of joins. Amortized O(log size) for each call.
@@ -119,8 +114,8 @@ public:
 
 private:
   std::vector<Index> parent_;
-  std::vector<std::uint8_t> flipped_; // relative to the parent
-  std::vector<std::uint8_t> rank_;
+  Flags flipped_; // relative to the parent
+  Flags rank_;
 };
 
 } // namespace pcl::floater

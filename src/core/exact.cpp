@@ -14,10 +14,6 @@
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
-#include <algorithm>
-#include <iterator>
-#include <numeric>
-
 namespace pcl::floater {
 namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -30,19 +26,19 @@ using SpaceDelaunay =
                                    CGAL::Triangulation_data_structure_3<SpaceVertex, SpaceCell>>;
 
 Kernel::Point_2
-exactly (const Eigen::Vector2d& p)
+exactly (const Vector2d& p)
 {
   return {p.x (), p.y ()};
 }
 
 Kernel::Point_3
-exactly (const Eigen::Vector3d& p)
+exactly (const Vector3d& p)
 {
   return {p.x (), p.y (), p.z ()};
 }
 
 Kernel::Triangle_3
-exactly (const std::array<Eigen::Vector3d, 3>& triangle)
+exactly (const std::array<Vector3d, 3>& triangle)
 {
   return {exactly (triangle[0]), exactly (triangle[1]), exactly (triangle[2])};
 }
@@ -60,13 +56,13 @@ exactly (const std::vector<Vector>& points)
 } // namespace
 
 bool
-isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+isAntiClockwise (const Vector2d& a, const Vector2d& b, const Vector2d& c)
 {
   return CGAL::orientation (exactly (a), exactly (b), exactly (c)) == CGAL::LEFT_TURN;
 }
 
 std::vector<std::size_t>
-convexHull (const std::vector<Eigen::Vector2d>& points)
+convexHull (const std::vector<Vector2d>& points)
 {
   const std::vector<Kernel::Point_2> exact = exactly (points);
   std::vector<std::size_t> places (points.size ());
@@ -85,21 +81,20 @@ convexHull (const std::vector<Eigen::Vector2d>& points)
 }
 
 bool
-isSimplePolygon (const std::vector<Eigen::Vector2d>& corners)
+isSimplePolygon (const std::vector<Vector2d>& corners)
 {
   const std::vector<Kernel::Point_2> polygon = exactly (corners);
   return CGAL::is_simple_2 (polygon.begin (), polygon.end (), Kernel ());
 }
 
 bool
-areCollinear (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+areCollinear (const Vector3d& a, const Vector3d& b, const Vector3d& c)
 {
   return CGAL::collinear (exactly (a), exactly (b), exactly (c));
 }
 
 bool
-areOnOneSide (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-              const Eigen::Vector3d& d)
+areOnOneSide (const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d)
 {
   return CGAL::coplanar (exactly (a), exactly (b), exactly (c), exactly (d)) &&
          CGAL::coplanar_orientation (exactly (a), exactly (b), exactly (c), exactly (d)) ==
@@ -107,14 +102,13 @@ areOnOneSide (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
 }
 
 bool
-doMeet (const std::array<Eigen::Vector3d, 3>& one, const std::array<Eigen::Vector3d, 3>& other)
+doMeet (const std::array<Vector3d, 3>& one, const std::array<Vector3d, 3>& other)
 {
   return CGAL::do_intersect (exactly (one), exactly (other));
 }
 
 bool
-doMeet (const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& a,
-        const Eigen::Vector3d& b)
+doMeet (const std::array<Vector3d, 3>& triangle, const Vector3d& a, const Vector3d& b)
 {
   return CGAL::do_intersect (exactly (triangle), Kernel::Segment_3 (exactly (a), exactly (b)));
 }

@@ -6,43 +6,36 @@
 
 #include "core/csr_lists.h"
 
-#include <Eigen/Core>
-
-#include <array>
-#include <vector>
-
 namespace pcl::floater {
 /// Whether three points in the plane are the corners of a triangle, anti-clockwise.
 bool
-isAntiClockwise (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+isAntiClockwise (const Vector2d& a, const Vector2d& b, const Vector2d& c);
 
 /// Indices of the points on the convex hull, anti-clockwise from the leftmost one. Of equal points,
 /// the first is used. O(n log n).
 std::vector<std::size_t>
-convexHull (const std::vector<Eigen::Vector2d>& points);
+convexHull (const std::vector<Vector2d>& points);
 
 /// Whether the edges of a closed polygon meet only at common corners. O(n log n).
 bool
-isSimplePolygon (const std::vector<Eigen::Vector2d>& corners);
+isSimplePolygon (const std::vector<Vector2d>& corners);
 
 /// Whether three points lie on one line.
 bool
-areCollinear (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+areCollinear (const Vector3d& a, const Vector3d& b, const Vector3d& c);
 
 /// Whether four points lie in one plane, and there c and d on one side of the line through a and b.
 bool
-areOnOneSide (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-              const Eigen::Vector3d& d);
+areOnOneSide (const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d);
 
 /// Whether two triangles that are not degenerate have a point in common.
 bool
-doMeet (const std::array<Eigen::Vector3d, 3>& one, const std::array<Eigen::Vector3d, 3>& other);
+doMeet (const std::array<Vector3d, 3>& one, const std::array<Vector3d, 3>& other);
 
 /// Whether a triangle that is not degenerate and the line segment from a to b have a point in
 /// common.
 bool
-doMeet (const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& a,
-        const Eigen::Vector3d& b);
+doMeet (const std::array<Vector3d, 3>& triangle, const Vector3d& a, const Vector3d& b);
 
 /// The tetrahedra of a triangulation. Those outside the convex hull have one corner at infinity,
 /// NONE.

@@ -6,11 +6,6 @@
 #include "core/types.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
@@ -36,37 +31,37 @@ distanceBetween (const Positions& positions, Index p, Index q)
 
 /// Twice the signed area of the triangle of the origin, a and b; positive if b is to the left of a.
 inline double
-cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+cross (const Vector2d& a, const Vector2d& b)
 {
   return a.x () * b.y () - a.y () * b.x ();
 }
 
 /// Twice the area of a triangle in the direction of its normal.
-inline Eigen::Vector3d
-areaVector (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+inline Vector3d
+areaVector (const Vector3d& a, const Vector3d& b, const Vector3d& c)
 {
   return (b - a).cross (c - a);
 }
 
 /// Radius of the circle through three points; infinite, or not a number, if they lie on one line.
 inline double
-circumradius (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+circumradius (const Vector3d& a, const Vector3d& b, const Vector3d& c)
 {
-  const Eigen::Vector3d ab = b - a, ac = c - a;
+  const Vector3d ab = b - a, ac = c - a;
   return ab.norm () * ac.norm () * (c - b).norm () / (2.0 * ab.cross (ac).norm ());
 }
 
 /// From point a to the centre of the circle through a, b and c.
 /// \param normal (b - a) x (c - a)
-inline Eigen::Vector3d
-toCircumcentre (const Eigen::Vector3d& ab, const Eigen::Vector3d& ac, const Eigen::Vector3d& normal)
+inline Vector3d
+toCircumcentre (const Vector3d& ab, const Vector3d& ac, const Vector3d& normal)
 {
   return (ab.squaredNorm () * ac.cross (normal) + ac.squaredNorm () * normal.cross (ab)) /
          (2.0 * normal.squaredNorm ());
 }
 
 /// Direction k of `count` that are spread evenly over the sphere, on a spiral.
-inline Eigen::Vector3d
+inline Vector3d
 spiralDirection (std::size_t k, std::size_t count)
 {
   const double golden_angle = PI * (3.0 - std::sqrt (5.0));
@@ -78,7 +73,7 @@ spiralDirection (std::size_t k, std::size_t count)
 /// Whether the surface is folded at an edge: the normals of its two triangles are more than 120
 /// degrees apart. The normals may have any lengths; a triangle without area is not folded.
 inline bool
-isFold (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
+isFold (const Vector3d& normal, const Vector3d& other)
 {
   constexpr double SQR_COSINE = 0.25; // of 120 degrees
   const double product = normal.dot (other);
@@ -88,7 +83,7 @@ isFold (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
 
 /// True if the surface bends by more than 60 degrees between two normals of any length.
 inline bool
-isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
+isBent (const Vector3d& normal, const Vector3d& other)
 {
   constexpr double SQR_COSINE = 0.25;
   const double product = normal.dot (other);
@@ -99,34 +94,31 @@ isBent (const Eigen::Vector3d& normal, const Eigen::Vector3d& other)
 /// Right-handed axes with the normal as the third.
 struct TangentFrame
 {
-  explicit TangentFrame (const Eigen::Vector3d& unit_normal)
+  explicit TangentFrame (const Vector3d& unit_normal)
       : normal (unit_normal), x (unit_normal.unitOrthogonal ()), y (unit_normal.cross (x))
   {
   }
 
-  Eigen::Vector2d project (const Eigen::Vector3d& offset) const
-  {
-    return {x.dot (offset), y.dot (offset)};
-  }
+  Vector2d project (const Vector3d& offset) const { return {x.dot (offset), y.dot (offset)}; }
 
-  Eigen::Vector3d normal, x, y;
+  Vector3d normal, x, y;
 };
 
 struct Plane
 {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ (); ///< unit vector of arbitrary sign
-  double mean_square = 0.0;                           ///< of the distances to the plane
+  Vector3d centre = Vector3d::Zero ();
+  Vector3d normal = Vector3d::UnitZ (); ///< unit vector of arbitrary sign
+  double mean_square = 0.0;             ///< of the distances to the plane
   double aspect = 0.0; ///< middle over largest eigenvalue of the covariance: 1 for a disc, 0 for
                        ///< collinear points, which determine no plane
 
   /// Distance of a point to the plane, negative below it.
-  double height (const Eigen::Vector3d& point) const { return normal.dot (point - centre); }
+  double height (const Vector3d& point) const { return normal.dot (point - centre); }
 };
 
 struct Line
 {
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX (); ///< unit vector of arbitrary sign
+  Vector3d direction = Vector3d::UnitX (); ///< unit vector of arbitrary sign
   double mean_square = 0.0; ///< of the distances to the line, in the direction of larger ones
   double aspect = 1.0;      ///< see Plane
 };
@@ -134,9 +126,9 @@ struct Line
 /// Axes of least (first) to largest (last) spread, and the spreads: root mean squares.
 struct PrincipalAxes
 {
-  Eigen::Vector3d centre;
+  Vector3d centre;
   Eigen::Matrix3d axes; ///< unit vectors, in columns
-  Eigen::Vector3d spread;
+  Vector3d spread;
 };
 
 /// Accumulates sums for the least-squares plane. The points should lie around the origin, within a
@@ -144,7 +136,7 @@ struct PrincipalAxes
 class PlaneFit
 {
 public:
-  void add (const Eigen::Vector3d& point, double weight = 1.0)
+  void add (const Vector3d& point, double weight = 1.0)
   {
     sum_ += weight * point;
     products_.noalias () += weight * point * point.transpose ();
@@ -163,10 +155,10 @@ public:
     solver.computeDirect (scattered);
     Plane plane;
     plane.centre = sum_ / weight_;
-    const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
+    const Vector3d normal = solver.eigenvectors ().col (0);
     if (normal.allFinite ())
       plane.normal = normal.normalized ();
-    const Eigen::Vector3d& eigenvalues = solver.eigenvalues ();
+    const Vector3d& eigenvalues = solver.eigenvalues ();
     if (eigenvalues[2] > 0.0)
       plane.aspect = std::max (0.0, eigenvalues[1]) / eigenvalues[2];
     plane.mean_square = std::max (0.0, plane.normal.dot (scattered * plane.normal)) / weight_;
@@ -179,10 +171,10 @@ public:
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect (scatter ());
     Line line;
-    const Eigen::Vector3d direction = solver.eigenvectors ().col (2);
+    const Vector3d direction = solver.eigenvectors ().col (2);
     if (direction.allFinite ())
       line.direction = direction.normalized ();
-    const Eigen::Vector3d& eigenvalues = solver.eigenvalues ();
+    const Vector3d& eigenvalues = solver.eigenvalues ();
     line.mean_square = std::max (0.0, eigenvalues[1]) / weight_;
     if (eigenvalues[2] > 0.0)
       line.aspect = std::max (0.0, eigenvalues[1]) / eigenvalues[2];
@@ -201,7 +193,7 @@ private:
   // Covariance times the sum of the weights.
   Eigen::Matrix3d scatter () const { return products_ - sum_ * sum_.transpose () / weight_; }
 
-  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero ();
+  Vector3d sum_ = Vector3d::Zero ();
   Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero ();
   double weight_ = 0.0;
 };

@@ -6,16 +6,12 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstddef>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <tuple>
-#include <vector>
 
 namespace pcl::floater {
 /// Calls body (i) for every i below `count`, on the threads of the run and in any order. The result

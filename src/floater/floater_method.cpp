@@ -6,12 +6,6 @@
 #include "floater/planar_delaunay.h"
 #include "floater/weights.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // Two steps g and h on a curve of curvature c turn left by an area of c g h / 2. To survive
@@ -69,18 +63,17 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
 // Lays the corners at given positions, and the points between two corners on the side between them.
 // \param corner_points indices of the corners in the loop, ascending
 // \param places        positions of the corners in the plane, anti-clockwise
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& corner_points,
-            const std::vector<Eigen::Vector2d>& places)
+            const std::vector<Vector2d>& places)
 {
-  std::vector<Eigen::Vector2d> uv (chords.size ());
+  std::vector<Vector2d> uv (chords.size ());
   for (std::size_t c = 0; c < places.size (); ++c) {
     const std::size_t next = c + 1 == places.size () ? 0 : c + 1;
-    const Eigen::Vector2d& from = places[c];
-    const Eigen::Vector2d side = places[next] - from;
+    const Vector2d& from = places[c];
+    const Vector2d side = places[next] - from;
     // The side is a parabola through both corners. Its slope is far smaller than their turns.
-    const Eigen::Vector2d bulge =
-        0.5 * SIDE_CURVATURE * side.norm () * Eigen::Vector2d (side.y (), -side.x ());
+    const Vector2d bulge = 0.5 * SIDE_CURVATURE * side.norm () * Vector2d (side.y (), -side.x ());
     std::size_t at = corner_points[c];
     const std::size_t end = corner_points[next] + (next == 0 ? chords.size () : 0);
     for (const double t : placeOnCurve (chords, at, end, side.norm ()))
@@ -91,7 +84,7 @@ layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& c
 
 } // namespace
 
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 layLoop (const Positions& positions, const std::vector<Index>& loop, const DomainOptions& options)
 {
   const std::size_t count = loop.size ();
@@ -102,7 +95,7 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
                 : options.loop_spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (step)
                                                                    : step;
   }
-  std::vector<Eigen::Vector2d> places; // on the unit circle
+  std::vector<Vector2d> places; // on the unit circle
   const auto addPlace = [&places] (double angle) {
     places.emplace_back (std::cos (angle), std::sin (angle));
   };
@@ -119,10 +112,10 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
   return layOnSides (chords, cornerPoints (chords, corners), places);
 }
 
-std::vector<std::uint8_t>
+Flags
 reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunContext& run)
 {
-  std::vector<std::uint8_t> reachable (neighbors.rows (), 0);
+  Flags reachable (neighbors.rows (), 0);
   for (const Index p : loop)
     reachable[p] = 1;
   const CsrLists leading_to = makeCsrLists (neighbors.rows (), [&] (const auto& emit) {
@@ -154,7 +147,7 @@ parameterize (const Positions& positions, Stars stars, const std::vector<Index>&
   CsrLists neighbors = std::move (stars.neighbors);
   stars = {};
 
-  const std::vector<std::uint8_t> reachable = reachLoop (neighbors, loop, run);
+  const Flags reachable = reachLoop (neighbors, loop, run);
   const auto unreachable =
       static_cast<std::size_t> (std::count (reachable.begin (), reachable.end (), 0));
   const double reached = static_cast<double> (positions.size () - unreachable);
@@ -167,7 +160,7 @@ parameterize (const Positions& positions, Stars stars, const std::vector<Index>&
             "more neighbours"};
     return result;
   }
-  const std::vector<Eigen::Vector2d> loop_uv = layLoop (positions, loop, options.domain);
+  const std::vector<Vector2d> loop_uv = layLoop (positions, loop, options.domain);
   LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reachable);
   neighbors = {};
   std::vector<double> ().swap (weights);
@@ -182,7 +175,7 @@ parameterize (const Positions& positions, Stars stars, const std::vector<Index>&
     return result;
 
   result.uv.assign (positions.size (),
-                    Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+                    Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
   for (std::size_t i = 0; i < loop.size (); ++i)
     result.uv[loop[i]] = loop_uv[i];
   for (std::size_t i = 0; i < system.unknowns (); ++i)
@@ -217,7 +210,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
   // The normals are needed longer than the stars.
-  std::vector<Eigen::Vector3f> normals = geometry.stars.normals;
+  Normals normals = geometry.stars.normals;
   disc.parameterization =
       parameterize (positions, std::move (geometry.stars), loop, options, run, settings.limits);
   geometry.stars = {};
@@ -228,7 +221,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
 
   // Section 2: the triangles of the parameters are the triangles in space.
   run.beginStage (Stage::DELAUNAY);
-  const std::vector<Eigen::Vector2d>& uv = disc.parameterization.uv;
+  const std::vector<Vector2d>& uv = disc.parameterization.uv;
   disc.mesh = triangulatePlane (uv, loop);
 
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and

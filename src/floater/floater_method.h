@@ -12,10 +12,6 @@
 
 #include <pcl/surface/floater/options.h>
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds for the mesh of a disc.
 struct DiscLimits
@@ -32,19 +28,19 @@ struct DiscLimits
 /// Parameters of the points in the plane.
 struct Parameterization
 {
-  std::vector<Eigen::Vector2d> uv; ///< per point; NaN if it is not connected with the loop; empty
-                                   ///< if there is a problem
-  std::size_t unknowns = 0;        ///< rows of the linear system
-  std::size_t nonzeros = 0;        ///< entries of its matrix
-  Solution solution;               ///< figures of the solver; the solution itself is in uv
-  Problem problem;                 ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or
-                                   ///< INTERNAL_ERROR
+  std::vector<Vector2d> uv; ///< per point; NaN if it is not connected with the loop; empty
+                            ///< if there is a problem
+  std::size_t unknowns = 0; ///< rows of the linear system
+  std::size_t nonzeros = 0; ///< entries of its matrix
+  Solution solution;        ///< figures of the solver; the solution itself is in uv
+  Problem problem;          ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or
+                            ///< INTERNAL_ERROR
 };
 
 /// Per point: 1 if a path along directed neighbours leads from it to the loop. Others take no part in
 /// the linear system: for unconnected unknowns, UMFPACK may return OK and put them all on the origin.
 /// A reverse breadth-first search, O(entries).
-std::vector<std::uint8_t>
+Flags
 reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunContext& run);
 
 /// Parameters of the boundary loop (TW 385, section 2.1): lays it on a convex curve in the unit circle, anti-clockwise. Steps along the circle,
@@ -61,7 +57,7 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
 /// side if that is less. On a straight side, an interior point whose neighbours are all on it would
 /// fall on it. O(loop).
 /// \return parameters, parallel to the loop
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 layLoop (const Positions& positions, const std::vector<Index>& loop, const DomainOptions& options);
 
 /// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system

@@ -10,10 +10,6 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -26,7 +22,7 @@ using Delaunay =
 } // namespace
 
 TriangleMesh
-triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loop)
+triangulatePlane (std::vector<Vector2d> uv, const std::vector<Index>& loop)
 {
   // Points that are not strictly inside of the loop are left out, except its own. Rounding may put a
   // point beyond the edge between two loop points.
@@ -35,15 +31,15 @@ triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loo
   double sqr_safe = std::numeric_limits<double>::infinity ();
   std::vector<std::pair<double, std::size_t>> corners; // direction, index in the loop; ascending
   for (std::size_t i = 0; i < h; ++i) {
-    const Eigen::Vector2d& a = uv[loop[i]];
-    const Eigen::Vector2d edge = uv[loop[(i + 1) % h]] - a;
+    const Vector2d& a = uv[loop[i]];
+    const Vector2d edge = uv[loop[(i + 1) % h]] - a;
     const double twice_area = cross (a, edge);
     sqr_safe =
         std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
     corners.emplace_back (std::atan2 (a.y (), a.x ()), i);
   }
   std::sort (corners.begin (), corners.end ());
-  std::vector<std::uint8_t> is_in_loop (uv.size (), 0);
+  Flags is_in_loop (uv.size (), 0);
   for (const Index p : loop)
     is_in_loop[p] = 1;
   for (Index p = 0; p < uv.size (); ++p) {
@@ -66,7 +62,7 @@ triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loo
 }
 
 TriangleMesh
-triangulateHull (const std::vector<Eigen::Vector2d>& uv)
+triangulateHull (const std::vector<Vector2d>& uv)
 {
   std::vector<std::pair<Kernel::Point_2, Index>> sites;
   sites.reserve (uv.size ());

@@ -5,8 +5,6 @@
 
 #include "mesh/triangle_mesh.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// The Delaunay triangulation of points in the plane, by CGAL with exact predicates. Its boundary
 /// is the loop. Of coinciding points only one is a vertex, a loop point if there is one. The others,
@@ -15,13 +13,13 @@ namespace pcl::floater {
 /// \param loop points of a strictly convex polygon around the origin, anti-clockwise
 /// \return triangles anti-clockwise in the plane; none if all points lie on one line
 TriangleMesh
-triangulatePlane (std::vector<Eigen::Vector2d> uv, const std::vector<Index>& loop);
+triangulatePlane (std::vector<Vector2d> uv, const std::vector<Index>& loop);
 
 /// The Delaunay triangulation of points in the plane up to their convex hull. Of coinciding points
 /// only one is a vertex. O(n log n).
 /// \param uv per point; non-finite ones are left out
 /// \return triangles anti-clockwise in the plane; none if all points lie on one line
 TriangleMesh
-triangulateHull (const std::vector<Eigen::Vector2d>& uv);
+triangulateHull (const std::vector<Vector2d>& uv);
 
 } // namespace pcl::floater

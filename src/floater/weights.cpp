@@ -5,11 +5,6 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
 namespace {
 // tan (alpha / 2) of a sector of half a turn, or nearly: the centre lies on the segment between two
@@ -24,8 +19,8 @@ constexpr double SAME_DIRECTION = 1e-9;
 // One star in contiguous memory, which is reused.
 struct LocalStar
 {
-  std::vector<Eigen::Vector2d> directions; // unit vectors
-  std::vector<double> lengths;             // relative to the longest, at least SMALLEST_WEIGHT
+  std::vector<Vector2d> directions; // unit vectors
+  std::vector<double> lengths;      // relative to the longest, at least SMALLEST_WEIGHT
   bool closed = false;
 
   std::size_t size () const { return directions.size (); }
@@ -36,7 +31,7 @@ struct LocalStar
   }
 
   // \return false if the star has no extent, or an infinite one
-  bool assign (const Eigen::Vector2d* offsets, std::size_t count, bool is_closed)
+  bool assign (const Vector2d* offsets, std::size_t count, bool is_closed)
   {
     closed = is_closed;
     directions.resize (count);
@@ -49,8 +44,7 @@ struct LocalStar
     if (!(longest > 0.0) || !std::isfinite (longest))
       return false;
     for (std::size_t i = 0; i < count; ++i) {
-      directions[i] =
-          lengths[i] > 0.0 ? Eigen::Vector2d (offsets[i] / lengths[i]) : Eigen::Vector2d::Zero ();
+      directions[i] = lengths[i] > 0.0 ? Vector2d (offsets[i] / lengths[i]) : Vector2d::Zero ();
       lengths[i] = std::max (lengths[i] / longest, SMALLEST_WEIGHT);
     }
     return true;
@@ -59,7 +53,7 @@ struct LocalStar
 
 // The sine is an absolute value, since rounding may give it the wrong sign in sectors next to 0 or pi.
 double
-halfTangentBetween (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+halfTangentBetween (const Vector2d& a, const Vector2d& b)
 {
   return halfTangent (std::abs (cross (a, b)), a.dot (b));
 }

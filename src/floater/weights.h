@@ -8,8 +8,6 @@
 
 #include <pcl/surface/floater/options.h>
 
-#include <vector>
-
 namespace pcl::floater {
 /// Smallest weight of a row relative to its largest. Far below any relevant weight, and far above
 /// rounding: a zero weight would cut the graph.

@@ -7,11 +7,6 @@
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
-#include <algorithm>
-#include <functional>
-#include <iterator>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 // O(n); one bit per point if the indices are not ascending.
@@ -25,7 +20,7 @@ checkInput (const Input& input)
   if (indices.size () != input.positions.size ())
     return refused ("there are " + std::to_string (input.positions.size ()) + " positions but " +
                     std::to_string (indices.size ()) + " cloud indices; give one for each");
-  for (const std::vector<Eigen::Vector3f>* normals : {&input.normals, &input.facing_normals})
+  for (const Normals* normals : {&input.normals, &input.facing_normals})
     if (!normals->empty () && normals->size () != input.cloud_size)
       return refused ("there are " + std::to_string (normals->size ()) +
                       " normals, but the whole cloud has " + std::to_string (input.cloud_size) +
@@ -58,7 +53,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
     return options.remove_outliers &&
            !std::binary_search (given.begin (), given.end (), input.cloud_index[row]);
   };
-  const Eigen::Vector3d shift (input.shift.data ());
+  const Vector3d shift (input.shift.data ());
   const InvalidPoints invalid = findInvalidPoints (input.positions, shift, limits.invalid);
   const auto leaveOut = [&] (const std::vector<Index>& rows) {
     double count = 0.0;
@@ -71,7 +66,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
   };
   if (const double count = leaveOut (invalid.pixels); count > 0.0) {
     constexpr double PERCENT = 100.0;
-    const Eigen::Vector3d place = invalid.place + shift;
+    const Vector3d place = invalid.place + shift;
     addFinding (report, FindingId::INVALID_PIXELS, {}, {}, count,
                 PERCENT * count / static_cast<double> (input.positions.size ()), place.x (),
                 place.y (), place.z ());
@@ -107,7 +102,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
 bool
 isSensorKnown (const std::array<double, 3>& sensor_origin)
 {
-  const Eigen::Map<const Eigen::Vector3d> sensor (sensor_origin.data ());
+  const Eigen::Map<const Vector3d> sensor (sensor_origin.data ());
   return !sensor.isZero (0.0) && sensor.allFinite ();
 }
 
@@ -144,9 +139,9 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
     return problem;
   points = makePoints (input.positions, input.cloud_index, run);
   points.normals = normalsOfPoints (input.normals, points);
-  std::vector<Eigen::Vector3f> ().swap (input.normals);
+  Normals ().swap (input.normals);
   points.facing_normals = normalsOfPoints (input.facing_normals, points);
-  std::vector<Eigen::Vector3f> ().swap (input.facing_normals);
+  Normals ().swap (input.facing_normals);
   Positions ().swap (input.positions);
   std::vector<Index> ().swap (input.cloud_index);
   reportPoints (points, report);

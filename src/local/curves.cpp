@@ -5,10 +5,7 @@
 #include "core/order_statistics.h"
 #include "local/star_reach.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -27,9 +24,8 @@ evenSteps (std::vector<double> angles, const CurveLimits& limits)
 
 // The axis of a sensor that turns about it, if nearly all points lie in turns.
 std::optional<int>
-findTurnAxis (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& origin,
-              const CsrLists& neighbors, std::size_t nearest, std::size_t stride,
-              const CurveLimits& limits)
+findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists& neighbors,
+              std::size_t nearest, std::size_t stride, const CurveLimits& limits)
 {
   for (int axis = 0; axis < 3; ++axis) {
     std::size_t looked_at = 0, alone = 0;
@@ -41,8 +37,8 @@ findTurnAxis (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector
     if (2 * alone < looked_at)
       continue;
     std::map<double, std::vector<double>> turns;
-    for (const Eigen::Vector3d& position : positions) {
-      const Eigen::Vector3d ray = position - origin;
+    for (const Vector3d& position : positions) {
+      const Vector3d ray = position - origin;
       turns[position[axis]].push_back (std::atan2 (ray[(axis + 2) % 3], ray[(axis + 1) % 3]));
     }
     std::size_t even = 0;
@@ -57,9 +53,9 @@ findTurnAxis (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector
 } // namespace
 
 Curves
-findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& origin,
-            const LocalGeometry& geometry, std::size_t neighbors, double least_aspect,
-            const ReachLimits& reach, const CurveLimits& limits, const RunContext& run)
+findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
+            std::size_t neighbors, double least_aspect, const ReachLimits& reach,
+            const CurveLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size (), stride = n / limits.samples + 1;
   if (n < limits.least_points)
@@ -77,8 +73,8 @@ findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d
   const auto points = static_cast<double> (on_line.size ());
   if (points < limits.on_lines * static_cast<double> (looked_at))
     return {};
-  const auto isBeside = [&] (const std::pair<Index, Line>& at, const Eigen::Vector3d& position) {
-    const Eigen::Vector3d offset = position - positions[at.first];
+  const auto isBeside = [&] (const std::pair<Index, Line>& at, const Vector3d& position) {
+    const Vector3d offset = position - positions[at.first];
     return axis ? offset[*axis] != 0.0 : liesBeside (at.second, offset, reach);
   };
   const auto isJoined = [&] (const std::pair<Index, Line>& at) {
@@ -100,9 +96,9 @@ findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d
   std::vector<Neighbor> found;
   std::vector<double> apart;
   for (const auto& at : on_line) {
-    const Eigen::Vector3d& here = positions[at.first];
-    const auto isOff = [&] (const Neighbor&, const Eigen::Vector3d& q) { return isBeside (at, q); };
-    tree.nearestIf (here, Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, 1, isOff, found);
+    const Vector3d& here = positions[at.first];
+    const auto isOff = [&] (const Neighbor&, const Vector3d& q) { return isBeside (at, q); };
+    tree.nearestIf (here, Vector3d::Zero (), KdTree::EVERYWHERE, 1, isOff, found);
     double step = 0.0;
     const Row nearest = geometry.neighbors.first (at.first, NEAREST);
     for (const Index q : nearest)

@@ -5,8 +5,6 @@
 
 #include "local/local_geometry.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of curves. Parallel lines on a wavy sheet, up to 30 times as far apart as their
 /// points, have 0.91 or more of their points joined, 40 times 0.67, 60 times 0.42; single curves
@@ -33,8 +31,8 @@ struct Curves
 /// \param origin of the cloud's coordinates
 /// \param neighbors number of each point's neighbours that are nearest
 Curves
-findCurves (const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& origin,
-            const LocalGeometry& geometry, std::size_t neighbors, double least_aspect,
-            const ReachLimits& reach, const CurveLimits& limits, const RunContext& run);
+findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
+            std::size_t neighbors, double least_aspect, const ReachLimits& reach,
+            const CurveLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -5,20 +5,14 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
-Eigen::Vector3d
-fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors,
-           const PlaneLimits& limits)
+Vector3d
+fitNormal (const Positions& positions, Index p, Row neighbors, const PlaneLimits& limits)
 {
   constexpr std::size_t ADDED = 2; // neighbours added at a time, while all are collinear
   PlaneFit core;
-  core.add (Eigen::Vector3d::Zero ()); // the point itself
+  core.add (Vector3d::Zero ()); // the point itself
   std::size_t used = 0;
   const auto addUpTo = [&] (std::size_t count) {
     for (; used < std::min (count, neighbors.size ()); ++used)
@@ -28,11 +22,11 @@ fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors
   Plane plane = addUpTo (limits.core_points);
   while (plane.aspect < limits.least_aspect && used < neighbors.size ())
     plane = addUpTo (used + ADDED);
-  const Eigen::Vector3d first = plane.normal;
+  const Vector3d first = plane.normal;
   PlaneFit sheet;
-  sheet.add (Eigen::Vector3d::Zero ());
+  sheet.add (Vector3d::Zero ());
   for (Index q : neighbors) {
-    const Eigen::Vector3d offset = positions[q] - positions[p];
+    const Vector3d offset = positions[q] - positions[p];
     if (std::abs (first.dot (offset)) <= limits.sheet_sine * offset.norm ())
       sheet.add (offset);
   }
@@ -42,7 +36,7 @@ fitNormal (const std::vector<Eigen::Vector3d>& positions, Index p, Row neighbors
 
 // Each row of one of two tables: of the first where `is_first` is not 0.
 CsrLists
-mergeRows (const CsrLists& first, const CsrLists& second, const std::vector<std::uint8_t>& is_first)
+mergeRows (const CsrLists& first, const CsrLists& second, const Flags& is_first)
 {
   return makeCsrLists (second.rows (), [&] (auto&& emit) {
     for (std::size_t p = 0; p < second.rows (); ++p)
@@ -56,7 +50,7 @@ LocalPlanes
 beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> known,
              const StarSettings& settings, const RunContext& run)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const Positions& positions = points.workingPositions ();
   LocalPlanes planes;
   planes.neighbors = std::move (neighbors);
   planes.spacing = localSpacing (positions, planes.neighbors, run);
@@ -85,7 +79,7 @@ LocalPlanes
 fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& settings,
                 const RunContext& run, const PlaneLimits& limits)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const Positions& positions = points.workingPositions ();
   if (planes.tree) {
     planes.beside = findBesideLines (positions, planes, limits.least_aspect, settings.reach, run);
     appendRows (planes.beside.neighbors, planes.neighbors);
@@ -104,7 +98,7 @@ LocalGeometry
 makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings& settings,
                    const RunContext& run, std::optional<Stars> begun)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.workingPositions ();
+  const Positions& positions = points.workingPositions ();
   LocalGeometry geometry;
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
@@ -128,7 +122,7 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
 void
 copyRows (const LocalGeometry& from, const std::vector<Index>& rows, LocalGeometry& to)
 {
-  std::vector<std::uint8_t> is_copied (to.spacing.size ());
+  Flags is_copied (to.spacing.size ());
   for (const Index p : rows) {
     is_copied[p] = 1;
     to.spacing[p] = from.spacing[p];
@@ -137,7 +131,7 @@ copyRows (const LocalGeometry& from, const std::vector<Index>& rows, LocalGeomet
     if (!to.stars.reach.empty ())
       to.stars.reach[p] = from.stars.reach[p];
   }
-  std::vector<Eigen::Vector2d> offsets;
+  std::vector<Vector2d> offsets;
   if (!to.stars.offsets_in_plane.empty ())
     for (std::size_t p = 0; p < is_copied.size (); ++p) {
       const Stars& stars = is_copied[p] != 0 ? from.stars : to.stars;

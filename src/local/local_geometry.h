@@ -8,9 +8,6 @@
 #include "points/kd_tree.h"
 #include "points/points.h"
 
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// The surface around each point, as used by both methods.
 struct LocalGeometry

@@ -4,11 +4,6 @@
 
 #include "core/geometry.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-
 namespace pcl::floater {
 namespace {
 // Relative tolerance: smaller cross products of neighbours count as zero, so that rounding on grids
@@ -20,7 +15,7 @@ constexpr std::size_t MOST_COUNTED = 32;
 
 // Increases with the angle of v, from 0 to 4; 0 without a direction.
 double
-pseudoAngle (const Eigen::Vector2d& v)
+pseudoAngle (const Vector2d& v)
 {
   const double sum = std::abs (v.x ()) + std::abs (v.y ());
   const double t = sum > 0.0 ? v.y () / sum : 0.0;
@@ -32,21 +27,21 @@ pseudoAngle (const Eigen::Vector2d& v)
 // True if a cross product, relative to the lengths of its factors, is nearly zero or negative.
 // Compares squares: roots would take longer than all the rest.
 bool
-isAtMostCollinear (double cross_product, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+isAtMostCollinear (double cross_product, const Vector2d& a, const Vector2d& b)
 {
   return cross_product <= 0.0 || cross_product * cross_product <=
                                      COLLINEAR * COLLINEAR * a.squaredNorm () * b.squaredNorm ();
 }
 
 bool
-sameDirection (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+sameDirection (const Vector2d& a, const Vector2d& b)
 {
   return a.dot (b) > 0.0 && isAtMostCollinear (std::abs (cross (a, b)), a, b);
 }
 
 // Half a turn or more from a to b, anti-clockwise. The directions must differ.
 bool
-spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+spansHalfTurn (const Vector2d& a, const Vector2d& b)
 {
   return isAtMostCollinear (cross (a, b), a, b);
 }
@@ -54,10 +49,10 @@ spansHalfTurn (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 // True if b lies strictly outside the segment from a to c, walking anti-clockwise around the
 // origin. Where the walk turns back, b is the tip of a spike: an inverted, very close neighbour.
 bool
-isCorner (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+isCorner (const Vector2d& a, const Vector2d& b, const Vector2d& c)
 {
-  const Eigen::Vector2d ab = b - a;
-  const Eigen::Vector2d bc = c - b;
+  const Vector2d ab = b - a;
+  const Vector2d bc = c - b;
   const double turn = cross (ab, bc);
   return ab.dot (bc) > 0.0 ? !isAtMostCollinear (turn, ab, bc) : turn > 0.0;
 }
@@ -131,7 +126,7 @@ PlanarStar::beginAfterGap ()
   std::size_t gap = count;
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d& a = hull_[i].offset;
+    const Vector2d& a = hull_[i].offset;
     if (count < 2 || spansHalfTurn (a, hull_[i + 1 == count ? 0 : i + 1].offset))
       gap = i;
     if (a.squaredNorm () < hull_[nearest].offset.squaredNorm ())
@@ -148,12 +143,12 @@ PlanarStar::beginAfterGap ()
 double
 PlanarStar::openingAngle () const
 {
-  const auto cosine = [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const auto cosine = [] (const Vector2d& a, const Vector2d& b) {
     return std::clamp (a.dot (b) / std::sqrt (a.squaredNorm () * b.squaredNorm ()), -1.0, 1.0);
   };
   if (hull_.size () < 2)
     return 2.0 * PI;
-  const Eigen::Vector2d &first = hull_.front ().offset, &last = hull_.back ().offset;
+  const Vector2d &first = hull_.front ().offset, &last = hull_.back ().offset;
   double smallest = cosine (last, first);
   if (is_open_ && spansHalfTurn (last, first))
     return 2.0 * PI - std::acos (smallest);
@@ -180,9 +175,8 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
   const std::size_t steps = open ? count : count + 1;
   for (std::size_t i = 0; i < steps; ++i) {
     const bool closing = i == count;
-    const Eigen::Vector2d next =
-        closing ? inverted_.front ()
-                : Eigen::Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
+    const Vector2d next =
+        closing ? inverted_.front () : Vector2d (hull_[i].offset / hull_[i].offset.squaredNorm ());
     while (inverted_.size () >= 2 &&
            !isCorner (inverted_[inverted_.size () - 2], inverted_.back (), next)) {
       inverted_.pop_back ();

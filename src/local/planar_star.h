@@ -5,13 +5,11 @@
 
 #include "core/types.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// A neighbour in the tangent plane, relative to the centre of the star.
 struct PlanarNeighbor
 {
-  Eigen::Vector2d offset;
+  Vector2d offset;
   Index point;
   double angle = 0.0; ///< set by PlanarStar: monotonic in the angle of the offset, from 0 to 4
 };
@@ -46,7 +44,7 @@ private:
   bool beginAfterGap ();
 
   std::vector<PlanarNeighbor> hull_;
-  std::vector<Eigen::Vector2d> inverted_;
+  std::vector<Vector2d> inverted_;
   bool is_open_ = true;
 };
 

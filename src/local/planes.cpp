@@ -5,13 +5,9 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
 std::vector<float>
-localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run)
+localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run)
 {
   std::vector<float> spacing (positions.size ());
   parallelPoints (run, spacing.size (), [&] (Index p) {
@@ -20,37 +16,36 @@ localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& nei
   return spacing;
 }
 
-Eigen::Vector3d
-meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, Index p)
+Vector3d
+meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals& normals, Index p)
 {
   constexpr std::size_t FIRST_RING = 8; // neighbours in the mean: the first ring
   constexpr double PERPENDICULAR = 0.1; // cosine below which its sign is unreliable
-  const Eigen::Vector3d normal = normals[p].cast<double> ();
-  Eigen::Vector3d sum = normal;
+  const Vector3d normal = normals[p].cast<double> ();
+  Vector3d sum = normal;
   const Row row = neighbors.row (p);
   for (std::size_t i = 0; i < std::min (FIRST_RING, row.size ()); ++i) {
-    const Eigen::Vector3d other = normals[row[i]].cast<double> ();
+    const Vector3d other = normals[row[i]].cast<double> ();
     double same = normal.dot (other);
     if (std::abs (same) < PERPENDICULAR) {
       // Two faces at a right angle: either both bend towards the other's normal, or both away.
-      const Eigen::Vector3d step = positions[row[i]] - positions[p];
+      const Vector3d step = positions[row[i]] - positions[p];
       same = -step.dot (normal) * step.dot (other);
     }
-    sum += same < 0.0 ? Eigen::Vector3d (-other) : other;
+    sum += same < 0.0 ? Vector3d (-other) : other;
   }
   const double length = sum.norm ();
-  return length > 0.0 ? Eigen::Vector3d (sum / length) : normal;
+  return length > 0.0 ? Vector3d (sum / length) : normal;
 }
 
-std::vector<Eigen::Vector3f>
-smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<Eigen::Vector3f>& normals, const RunContext& run)
+Normals
+smoothedNormals (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
+                 const RunContext& run)
 {
   constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
-  std::vector<Eigen::Vector3f> smoothed (normals.size ());
+  Normals smoothed (normals.size ());
   parallelPoints (run, normals.size (), [&] (Index p) {
-    const Eigen::Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();
+    const Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();
     smoothed[p] = std::abs (mean.dot (normals[p])) < EDGE ? mean : normals[p];
   });
   return smoothed;

@@ -7,11 +7,6 @@
 #include "core/run_context.h"
 #include "points/neighbors.h"
 
-#include <Eigen/Core>
-
-#include <cmath>
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds that separate sheets. Chosen on the clouds of the first benchmark: wide enough for
 /// sharp edges of 90 degrees; unreliable for thin sheets.
@@ -24,8 +19,8 @@ struct SheetLimits
 /// True if a neighbour at `offset` lies within the limits of both tangent planes, and the unsigned
 /// normals agree.
 inline bool
-onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
-             const Eigen::Vector3d& offset, const SheetLimits& limits)
+onSameSheet (const Vector3d& normal, const Vector3d& other_normal, const Vector3d& offset,
+             const SheetLimits& limits)
 {
   const double limit = limits.plane_sine * offset.norm ();
   return std::abs (normal.dot (offset)) <= limit && std::abs (other_normal.dot (offset)) <= limit &&
@@ -36,8 +31,7 @@ onSameSheet (const Eigen::Vector3d& normal, const Eigen::Vector3d& other_normal,
 /// triangulation that is the length of an edge. O(n).
 /// \param neighbors nearest first
 std::vector<float>
-localSpacing (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-              const RunContext& run);
+localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run);
 
 /// Thresholds for the sheet of a point. The first two were chosen on the clouds of the first
 /// benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds there
@@ -56,14 +50,13 @@ struct PlaneLimits
 /// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
 /// own. At a sharp edge the least-squares plane follows one of the faces; the mean lies between
 /// them.
-Eigen::Vector3d
-meanNormal (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, Index p);
+Vector3d
+meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals& normals, Index p);
 
 /// The mean normal of each point where it is more than 26 degrees off the point's normal; otherwise
 /// the point's normal. O(n).
-std::vector<Eigen::Vector3f>
-smoothedNormals (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-                 const std::vector<Eigen::Vector3f>& normals, const RunContext& run);
+Normals
+smoothedNormals (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
+                 const RunContext& run);
 
 } // namespace pcl::floater

@@ -5,8 +5,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-
 namespace pcl::floater {
 namespace {
 // Share of the triangles of a star that are in the stars of all their corners.
@@ -44,8 +42,7 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
   const std::size_t n = geometry.spacing.size ();
   std::vector<float> share (n);
   parallelPoints (run, n, [&] (Index p) { share[p] = agreeingShare (geometry.stars, p); });
-  RegionPoints strewn{std::vector<std::uint8_t> (n), std::vector<std::uint8_t> (n),
-                      std::vector<float> (n)};
+  RegionPoints strewn{Flags (n), Flags (n), std::vector<float> (n)};
   RegionPoints distant = strewn;
   parallelPoints (run, n, [&] (Index p) {
     const double unevenness = may_be_uneven ? static_cast<double> (noise.unevenness[p]) : 0.0;
@@ -67,8 +64,8 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, double uneven, b
     distant.is_counted[p] = spacing >= far_away ? 1 : 0;
     distant.value[p] = around <= limits.far_share ? 1.0F : 0.0F;
   });
-  std::vector<std::uint8_t> is_scatter (n), is_not_noise (n);
-  const auto take = [&] (double least_mean, std::vector<std::uint8_t>& taken) {
+  Flags is_scatter (n), is_not_noise (n);
+  const auto take = [&] (double least_mean, Flags& taken) {
     takeRegions (geometry.neighbors, strewn, limits.least, is_certain ? least_mean : 0.0, taken);
   };
   take (limits.dimension_if_not_noisy, is_scatter);

@@ -6,8 +6,6 @@
 #include "local/local_geometry.h"
 #include "points/noise.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds of scatter. Measures of a point: its unevenness and its dimension (see Noise), and
 /// the share of the triangles of the stars around it that are in the stars of all their corners.

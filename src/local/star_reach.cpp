@@ -5,45 +5,40 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 namespace pcl::floater {
 namespace {
 // Allows for the rounding of a circumcircle: points on it, as on grids, are not inside.
 constexpr double INSIDE = 1.0 - 1e-9;
 
 // Unrolled into the plane: the direction of the projection, the length in space, as in the stars.
-Eigen::Vector2d
-unrolled (const TangentFrame& frame, const Eigen::Vector3d& offset)
+Vector2d
+unrolled (const TangentFrame& frame, const Vector3d& offset)
 {
-  const Eigen::Vector2d projected = frame.project (offset);
+  const Vector2d projected = frame.project (offset);
   const double planar_length = projected.norm ();
-  return planar_length > 0.0 ? Eigen::Vector2d (projected * (offset.norm () / planar_length))
-                             : projected;
+  return planar_length > 0.0 ? Vector2d (projected * (offset.norm () / planar_length)) : projected;
 }
 
-Eigen::Vector3d
-inSpace (const TangentFrame& frame, const Eigen::Vector2d& planar)
+Vector3d
+inSpace (const TangentFrame& frame, const Vector2d& planar)
 {
   return frame.x * planar.x () + frame.y * planar.y ();
 }
 
 // Middle direction of the gap from the last neighbour of an open star to the first.
-Eigen::Vector2d
+Vector2d
 middleOfGap (const std::vector<PlanarNeighbor>& star)
 {
-  const Eigen::Vector2d first = star.front ().offset.normalized ();
-  const Eigen::Vector2d last = star.back ().offset.normalized ();
-  const Eigen::Vector2d sum = first + last;
+  const Vector2d first = star.front ().offset.normalized ();
+  const Vector2d last = star.back ().offset.normalized ();
+  const Vector2d sum = first + last;
   constexpr double STRAIGHT = 1e-6;
   if (star.size () == 1)
     return -first;
   if (sum.norm () < STRAIGHT)
     return {-last.y (), last.x ()};
   const bool is_reflex = cross (last, first) < 0.0;
-  return is_reflex ? Eigen::Vector2d (-sum.normalized ()) : Eigen::Vector2d (sum.normalized ());
+  return is_reflex ? Vector2d (-sum.normalized ()) : Vector2d (sum.normalized ());
 }
 
 // Radius that a search for `wanted` points within `radius` has covered.
@@ -57,7 +52,7 @@ reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double ra
 // a line are strewn, those nearest may be close to each other by chance, and tell nothing of the
 // steps around; the whole row, which goes to either side, does.
 double
-farthestFrom (const std::vector<Eigen::Vector3d>& positions, Index p, Row nearest, double spacing,
+farthestFrom (const Positions& positions, Index p, Row nearest, double spacing,
               const ReachLimits& limits)
 {
   if (nearest.size () == 0)
@@ -72,17 +67,17 @@ farthestFrom (const std::vector<Eigen::Vector3d>& positions, Index p, Row neares
 } // namespace
 
 std::optional<Line>
-lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, double least_aspect)
+lineThrough (const Positions& positions, Index p, Row row, double least_aspect)
 {
   constexpr double WIDE = 0.3; // sum of squares across over along; 0.05 is a line
   if (row.size () == 0)
     return {};
   // Much faster than a fit: whether neighbours spread to the sides of the direction of the farthest.
-  const Eigen::Vector3d& here = positions[p];
-  const Eigen::Vector3d direction = (positions[row[row.size () - 1]] - here).normalized ();
+  const Vector3d& here = positions[p];
+  const Vector3d direction = (positions[row[row.size () - 1]] - here).normalized ();
   double along = 0.0, all = 0.0;
   for (const Index q : row) {
-    const Eigen::Vector3d offset = positions[q] - here;
+    const Vector3d offset = positions[q] - here;
     const double step = direction.dot (offset);
     along += step * step;
     all += offset.squaredNorm ();
@@ -90,7 +85,7 @@ lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, do
   if (!(all - along <= WIDE * along))
     return {};
   PlaneFit fit;
-  fit.add (Eigen::Vector3d::Zero ());
+  fit.add (Vector3d::Zero ());
   for (const Index q : row)
     fit.add (positions[q] - here);
   const Line line = fit.line ();
@@ -98,7 +93,7 @@ lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, do
 }
 
 bool
-liesBeside (const Line& line, const Eigen::Vector3d& offset, const ReachLimits& limits)
+liesBeside (const Line& line, const Vector3d& offset, const ReachLimits& limits)
 {
   const double along = line.direction.dot (offset);
   const double sqr_lateral = (offset - line.direction * along).squaredNorm ();
@@ -112,7 +107,7 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
   constexpr double ROUNDED_UP = 1.0 + 1e-12, LEAST_COSINE = 1e-9;
   constexpr std::size_t FEWEST = 10;
   constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
-  const Eigen::Vector3d& here = positions_[p];
+  const Vector3d& here = positions_[p];
   const Row around = planes_.neighbors.row (p);
   std::optional<Line> line = lineThrough (positions_, p, around, least_aspect_);
   // Or through the nearer half, if these lie on a line much more closely. Where the farther half has a
@@ -126,9 +121,9 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
     return 0.0F;
   // The tree may return points behind the plane of its search, which depends on its nodes: they are
   // rejected, with a tolerance for rounding.
-  Eigen::Vector3d ahead = Eigen::Vector3d::Zero ();
-  const auto is_beside = [&] (const Neighbor&, const Eigen::Vector3d& position) {
-    const Eigen::Vector3d offset = position - here;
+  Vector3d ahead = Vector3d::Zero ();
+  const auto is_beside = [&] (const Neighbor&, const Vector3d& position) {
+    const Vector3d offset = position - here;
     return liesBeside (*line, offset, limits_) &&
            (ahead.isZero (0.0) ||
             ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ());
@@ -143,7 +138,7 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
     double bound = 0.0;
     const bool is_bounded = found.size () == limits_.added &&
                             std::all_of (found.begin (), found.end (), [&] (const Neighbor& other) {
-                              const Eigen::Vector3d& position = positions_[other.point];
+                              const Vector3d& position = positions_[other.point];
                               bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
                               return is_beside (other, position);
                             });
@@ -154,7 +149,7 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
       return is_first ? 0.0F : static_cast<float> (nearest);
     const double distance = std::sqrt (found.front ().sqr_distance);
     nearest = is_first ? distance : std::min (nearest, distance);
-    const Eigen::Vector3d offset = positions_[found.front ().point] - here;
+    const Vector3d offset = positions_[found.front ().point] - here;
     ahead = line->direction * line->direction.dot (offset) - offset;
     for (const Neighbor& neighbor : found)
       if (std::find (row.begin (), row.end (), neighbor.point) == row.end ())
@@ -164,8 +159,8 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
 }
 
 BesideLines
-findBesideLines (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
-                 double least_aspect, const ReachLimits& limits, const RunContext& run)
+findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
+                 const ReachLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size ();
   BesideLines beside;
@@ -221,10 +216,10 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open)
   const std::size_t sectors = open ? std::max<std::size_t> (1, count) - 1 : count;
   for (const PlanarNeighbor& neighbor : star) {
     const double length = neighbor.offset.norm ();
-    const Eigen::Vector2d back = -neighbor.offset / length;
+    const Vector2d back = -neighbor.offset / length;
     for (std::size_t i = 0; i < sectors && length > reach; ++i) {
-      const Eigen::Vector2d& a = star[i].offset;
-      const Eigen::Vector2d& b = star[i + 1 == count ? 0 : i + 1].offset;
+      const Vector2d& a = star[i].offset;
+      const Vector2d& b = star[i + 1 == count ? 0 : i + 1].offset;
       if (cross (a, back) < 0.0 || cross (back, b) < 0.0 || cross (a, b) <= 0.0)
         continue;
       reach = std::max (reach, std::min (length, cross (a, b) / cross (back, b - a)));
@@ -250,9 +245,9 @@ StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_dis
 void
 StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star)
 {
-  const Eigen::Vector3d& here = positions_[centre.point];
-  const Eigen::Vector3d ahead = inSpace (centre.frame, middleOfGap (star));
-  const auto is_ahead = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
+  const Vector3d& here = positions_[centre.point];
+  const Vector3d ahead = inSpace (centre.frame, middleOfGap (star));
+  const auto is_ahead = [&] (const Neighbor& neighbor, const Vector3d& position) {
     const double along = ahead.dot (position - here);
     return along > 0.0 &&
            along * along >= limits_.most_cosine * limits_.most_cosine * neighbor.sqr_distance &&
@@ -270,22 +265,21 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
   const double double_area = cross (a.offset, b.offset);
   if (double_area <= 0.0)
     return;
-  const Eigen::Vector2d difference =
+  const Vector2d difference =
       a.offset.squaredNorm () * b.offset - b.offset.squaredNorm () * a.offset;
-  const Eigen::Vector2d middle =
-      Eigen::Vector2d (difference.y (), -difference.x ()) / (2.0 * double_area);
+  const Vector2d middle = Vector2d (difference.y (), -difference.x ()) / (2.0 * double_area);
   const double sqr_radius = middle.squaredNorm ();
   if (4.0 * sqr_radius <= centre.sqr_searched ||
       sqr_radius > centre.farthest * centre.farthest / 4.0)
     return;
-  const Eigen::Vector3d& here = positions_[centre.point];
-  const auto is_inside = [&] (const Neighbor& neighbor, const Eigen::Vector3d& position) {
-    const Eigen::Vector3d offset = position - here;
+  const Vector3d& here = positions_[centre.point];
+  const auto is_inside = [&] (const Neighbor& neighbor, const Vector3d& position) {
+    const Vector3d offset = position - here;
     return (unrolled (centre.frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
            isNew (centre, neighbor, offset.squaredNorm (), limits_.circle_sheet);
   };
   const double radius = std::sqrt (sqr_radius);
-  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Eigen::Vector3d::Zero (), radius,
+  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Vector3d::Zero (), radius,
                            limits_.added, is_inside, found_);
   planes_.tree->looked (here, radius + reachOfSearch (found_, limits_.added, radius));
   for (const Neighbor& neighbor : found_)

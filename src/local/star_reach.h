@@ -10,10 +10,6 @@
 #include "points/kd_tree.h"
 #include "points/neighbors.h"
 
-#include <array>
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of far neighbours.
 struct ReachLimits
@@ -45,11 +41,11 @@ constexpr float REACH_AS_SPACING = 0.5F;
 /// The line through a point and its neighbours, if they lie on one.
 /// \param least_aspect see PlaneLimits
 std::optional<Line>
-lineThrough (const std::vector<Eigen::Vector3d>& positions, Index p, Row row, double least_aspect);
+lineThrough (const Positions& positions, Index p, Row row, double least_aspect);
 
 /// Whether a point, at an offset from one on a line, lies beside the line.
 bool
-liesBeside (const Line& line, const Eigen::Vector3d& offset, const ReachLimits& limits);
+liesBeside (const Line& line, const Vector3d& offset, const ReachLimits& limits);
 
 /// Neighbours beside the points whose nearest neighbours are collinear, as in scan lines.
 struct BesideLines
@@ -62,12 +58,12 @@ struct BesideLines
 /// Input of the stars.
 struct LocalPlanes
 {
-  CsrLists neighbors;                   ///< nearest first, then the far neighbours beside lines
-  std::vector<float> spacing;           ///< of the working positions: see localSpacing
-  std::vector<Eigen::Vector3f> normals; ///< of the tangent planes: unit length, of arbitrary sign
-  std::optional<KdTree> tree;           ///< of the working positions, if stars reach beyond the
-                                        ///< neighbours
-  BesideLines beside;                   ///< neighbours beside lines, in the same case
+  CsrLists neighbors;         ///< nearest first, then the far neighbours beside lines
+  std::vector<float> spacing; ///< of the working positions: see localSpacing
+  Normals normals;            ///< of the tangent planes: unit length, of arbitrary sign
+  std::optional<KdTree> tree; ///< of the working positions, if stars reach beyond the
+                              ///< neighbours
+  BesideLines beside;         ///< neighbours beside lines, in the same case
 };
 
 /// Finds the neighbours beside the line of a point, if it is on one, by two searches.
@@ -75,8 +71,8 @@ class BesideSearch
 {
 public:
   /// \param planes with neighbours, spacing and tree; must outlive this
-  BesideSearch (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
-                double least_aspect, const ReachLimits& limits)
+  BesideSearch (const Positions& positions, const LocalPlanes& planes, double least_aspect,
+                const ReachLimits& limits)
       : positions_ (positions), planes_ (planes), least_aspect_ (least_aspect), limits_ (limits)
   {
   }
@@ -86,7 +82,7 @@ public:
   float extend (Index p, std::vector<Index>& row);
 
 private:
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const LocalPlanes& planes_;
   double least_aspect_;
   ReachLimits limits_;
@@ -96,8 +92,8 @@ private:
 /// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
 /// \param planes with neighbours, spacing and tree
 BesideLines
-findBesideLines (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
-                 double least_aspect, const ReachLimits& limits, const RunContext& run);
+findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
+                 const ReachLimits& limits, const RunContext& run);
 
 /// Appends lists to others, row by row, in place. O(entries).
 void
@@ -120,8 +116,8 @@ class StarReach
 {
 public:
   /// \param positions, planes must outlive this
-  StarReach (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
-             const SheetLimits& sheets, const ReachLimits& limits)
+  StarReach (const Positions& positions, const LocalPlanes& planes, const SheetLimits& sheets,
+             const ReachLimits& limits)
       : positions_ (positions), planes_ (planes), sheets_ (sheets), limits_ (limits)
   {
   }
@@ -153,7 +149,7 @@ private:
   void lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star);
   void lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b);
 
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const LocalPlanes& planes_;
   SheetLimits sheets_;
   ReachLimits limits_;

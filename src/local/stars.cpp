@@ -7,12 +7,6 @@
 #include "local/planar_star.h"
 #include "local/planes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <optional>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 enum class Tier
@@ -26,9 +20,8 @@ enum class Tier
 class StarMaker
 {
 public:
-  StarMaker (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-             const std::vector<Eigen::Vector3f>& normals, const StarSettings& settings,
-             const LocalPlanes* beyond)
+  StarMaker (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
+             const StarSettings& settings, const LocalPlanes* beyond)
       : positions_ (positions), neighbors_ (neighbors), normals_ (normals), settings_ (settings),
         beyond_ (beyond)
   {
@@ -38,7 +31,7 @@ public:
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
   /// open.
-  bool make (Index p, Eigen::Vector3f& normal)
+  bool make (Index p, Vector3f& normal)
   {
     bool open = makeOfNeighbors (p, normal);
     if (reach_) {
@@ -51,7 +44,7 @@ public:
   }
 
   /// Makes the star of p with known far neighbours.
-  bool make (Index p, const std::vector<Index>& far, Eigen::Vector3f& normal)
+  bool make (Index p, const std::vector<Index>& far, Vector3f& normal)
   {
     const bool open = makeOfNeighbors (p, normal);
     if (far.empty ())
@@ -75,7 +68,7 @@ private:
     std::vector<PlanarNeighbor> neighbors;
   };
 
-  bool makeOfNeighbors (Index p, Eigen::Vector3f& normal)
+  bool makeOfNeighbors (Index p, Vector3f& normal)
   {
     normal = normals_[p];
     const TangentFrame frame (normal.cast<double> ());
@@ -83,7 +76,7 @@ private:
       return select (p, frame, Tier::ALL, star_);
     if (!select (p, frame, Tier::EITHER_PLANE, star_))
       return false;
-    const Eigen::Vector3d mean = meanNormal (positions_, neighbors_, normals_, p);
+    const Vector3d mean = meanNormal (positions_, neighbors_, normals_, p);
     if (!select (p, TangentFrame (mean), Tier::EITHER_PLANE, wider_)) {
       std::swap (star_, wider_);
       normal = mean.cast<float> ();
@@ -97,7 +90,7 @@ private:
     return true; // the star of tier 1, which has the fewest points of other sheets
   }
 
-  bool leavesPlanes (const Eigen::Vector3d& normal, Index q, const Eigen::Vector3d& offset) const
+  bool leavesPlanes (const Vector3d& normal, Index q, const Vector3d& offset) const
   {
     const double limit = settings_.limits.plane_sine * offset.norm ();
     return std::abs (normal.dot (offset)) > limit &&
@@ -108,8 +101,8 @@ private:
   void addCandidate (Index p, Index q, const TangentFrame& frame, Star& star) const
   {
     constexpr double UPRIGHT = 1e-6;
-    const Eigen::Vector3d offset = positions_[q] - positions_[p];
-    const Eigen::Vector2d projected = frame.project (offset);
+    const Vector3d offset = positions_[q] - positions_[p];
+    const Vector2d projected = frame.project (offset);
     const double planar_length = projected.norm (), length = offset.norm ();
     if (planar_length > UPRIGHT * length)
       star.candidates.push_back ({projected * (length / planar_length), q});
@@ -119,7 +112,7 @@ private:
   {
     star.candidates.clear ();
     for (const Index q : neighbors_.row (p)) {
-      const Eigen::Vector3d offset = positions_[q] - positions_[p];
+      const Vector3d offset = positions_[q] - positions_[p];
       if (tier == Tier::ALL ||
           (tier == Tier::EITHER_PLANE
                ? onSameSheet (frame.normal, normals_[q].cast<double> (), offset, settings_.limits)
@@ -131,9 +124,9 @@ private:
                                                 : planar_star_.order (star.neighbors);
   }
 
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const CsrLists& neighbors_;
-  const std::vector<Eigen::Vector3f>& normals_;
+  const Normals& normals_;
   const StarSettings& settings_;
   const LocalPlanes* beyond_;
   PlanarStar planar_star_;
@@ -204,16 +197,16 @@ public:
 
 private:
   RangeLists<Index> ids_, far_;
-  RangeLists<Eigen::Vector2d> offsets_;
+  RangeLists<Vector2d> offsets_;
   bool with_offsets_;
 };
 
 } // namespace
 
 Stars
-makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-           const StarSettings& settings, const RunContext& run, const LocalPlanes* beyond)
+makeStars (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
+           const Rows& rows, const StarSettings& settings, const RunContext& run,
+           const LocalPlanes* beyond)
 {
   const std::size_t n = positions.size ();
   StarsInMaking made (rows.size (), n, settings.with_offsets);
@@ -236,7 +229,7 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighb
 }
 
 Stars
-finishStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes, Stars begun,
+finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
              const StarSettings& settings, const RunContext& run)
 {
   const std::size_t n = positions.size ();
@@ -268,7 +261,7 @@ finishStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& p
       for (std::size_t i = 0; i < row.size (); ++i)
         star.push_back ({settings.with_offsets
                              ? begun.offsets_in_plane[begun.neighbors.offsets[p] + i]
-                             : Eigen::Vector2d (0.0, 0.0),
+                             : Vector2d (0.0, 0.0),
                          row[i]});
       made.add (first, p, star);
     }

@@ -9,8 +9,6 @@
 #include "local/star_reach.h"
 #include "points/neighbors.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Neighbours that become part of a star.
 enum class StarKind
@@ -36,10 +34,10 @@ struct StarSettings
 struct Stars
 {
   CsrLists neighbors;
-  std::vector<Eigen::Vector2d> offsets_in_plane; ///< parallel to neighbors.ids: offset from the
-                                                 ///< centre in the plane, with the length in space
-  std::vector<std::uint8_t> open;                ///< 1 if the star does not surround its centre
-  std::vector<Eigen::Vector3f> normals;
+  std::vector<Vector2d> offsets_in_plane; ///< parallel to neighbors.ids: offset from the
+                                          ///< centre in the plane, with the length in space
+  Flags open;                             ///< 1 if the star does not surround its centre
+  Normals normals;
   CsrLists far_neighbors;   ///< of each point: far neighbours tested for its star; see finishStars
   std::vector<float> reach; ///< maximum reach of a star and those around, see reachOf; empty if no
                             ///< star was to reach farther
@@ -62,15 +60,14 @@ struct Stars
 /// \param beyond  the planes, for stars that may reach beyond the neighbours (see StarReach), which
 ///                finishStars () completes
 Stars
-makeStars (const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-           const std::vector<Eigen::Vector3f>& normals, const Rows& rows,
-           const StarSettings& settings, const RunContext& run,
+makeStars (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
+           const Rows& rows, const StarSettings& settings, const RunContext& run,
            const LocalPlanes* beyond = nullptr);
 
 /// Stars by the planes, beyond the neighbours if the settings ask for that.
 inline Stars
-makeStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes,
-           const Rows& rows, const StarSettings& settings, const RunContext& run)
+makeStars (const Positions& positions, const LocalPlanes& planes, const Rows& rows,
+           const StarSettings& settings, const RunContext& run)
 {
   return makeStars (positions, planes.neighbors, planes.normals, rows, settings, run,
                     settings.reach_beyond ? &planes : nullptr);
@@ -81,7 +78,7 @@ makeStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& pla
 /// ends.
 /// \param begun results of makeStars ()
 Stars
-finishStars (const std::vector<Eigen::Vector3d>& positions, const LocalPlanes& planes, Stars begun,
+finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
              const StarSettings& settings, const RunContext& run);
 
 /// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).

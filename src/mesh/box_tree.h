@@ -5,15 +5,6 @@
 
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Boxes in leaves of LEAF_SIZE, in nodes of FAN nodes each. Consecutive boxes should be near in
 /// space. 28 bytes per box. Boxes are rounded outwards to single precision, so a few more may seem
@@ -78,8 +69,7 @@ public:
   /// for boxes that hardly overlap.
   /// \param direction not zero, any length
   template <typename Visit>
-  void forAlongRay (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                    Visit&& visit) const
+  void forAlongRay (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
   {
     const Ray ray (origin, direction);
     forMet ([&ray] (const Box& box) { return ray.meets (box); }, visit);
@@ -123,7 +113,7 @@ private:
   // A ray, and which planes of a box it meets first.
   struct Ray
   {
-    Ray (const Eigen::Vector3d& from, const Eigen::Vector3d& direction) : origin (from)
+    Ray (const Vector3d& from, const Vector3d& direction) : origin (from)
     {
       constexpr double NOT_ZERO = 1e-300; // avoids infinity times zero
       for (int axis = 0; axis < 3; ++axis) {
@@ -146,7 +136,7 @@ private:
       return begin <= end;
     }
 
-    Eigen::Vector3d origin, inverse;
+    Vector3d origin, inverse;
   };
 
   // Calls visit (i, j) for all boxes i of a leaf and j of another one, or of the same, i < j.

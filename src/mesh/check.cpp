@@ -7,16 +7,9 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 std::vector<float>
-spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const RunContext& run)
+spacingOfMesh (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
   std::vector<float> spacing (positions.size (), 0.0F);
   using Indices = std::vector<Index>;
@@ -102,8 +95,8 @@ struct Figures
 };
 
 bool
-isDegenerate (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-              double precision, double flat_height)
+isDegenerate (const Vector3d& a, const Vector3d& b, const Vector3d& c, double precision,
+              double flat_height)
 {
   const double sqr_longest =
       std::max ({(b - a).squaredNorm (), (c - a).squaredNorm (), (c - b).squaredNorm ()});
@@ -124,7 +117,7 @@ isLinked (const TriangleMesh& mesh, MeshEdge e)
 }
 
 void
-lookAtEdge (MeshEdge e, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+lookAtEdge (MeshEdge e, const TriangleMesh& mesh, const Positions& positions,
             const std::vector<float>& spacing, double long_edge, Figures& found)
 {
   const auto [p, q] = std::minmax ({mesh.from (e), mesh.to (e)});
@@ -147,8 +140,8 @@ lookAtEdge (MeshEdge e, const TriangleMesh& mesh, const std::vector<Eigen::Vecto
     found.long_edges.add ({1, p});
     found.longest_inside.take (edge);
   }
-  const Eigen::Vector3d normal = areaVectorOf (mesh.triangles[e.triangle], positions),
-                        beyond = areaVectorOf (mesh.triangles[other], positions);
+  const Vector3d normal = areaVectorOf (mesh.triangles[e.triangle], positions),
+                 beyond = areaVectorOf (mesh.triangles[other], positions);
   constexpr double COSINE = 0.5; // of 60 degrees
   found.bent += normal.dot (beyond) < COSINE * normal.norm () * beyond.norm () ? 1 : 0;
   if (isFold (normal, beyond))
@@ -236,7 +229,7 @@ MeshExamination
 checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
            const RunContext& run, const CheckLimits& limits)
 {
-  const std::vector<Eigen::Vector3d>& positions = points.positions;
+  const Positions& positions = points.positions;
   const auto look = [&, precision = limits.precision * points.diagonal] (Index t, Figures& range) {
     const auto [a, b, c] = mesh.triangles[t];
     if (!isProper (mesh.triangles[t], positions.size ())) {

@@ -10,16 +10,11 @@
 
 #include <pcl/surface/floater/report.h>
 
-#include <optional>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Spacing of each point on a mesh: the median length of its edges. For points without edges, the
 /// median of all others. O(n).
 std::vector<float>
-spacingOfMesh (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const RunContext& run);
+spacingOfMesh (const TriangleMesh& mesh, const Positions& positions, const RunContext& run);
 
 /// A loop in units of the cloud.
 LoopSummary

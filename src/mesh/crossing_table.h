@@ -8,9 +8,7 @@
 #include "mesh/triangle_mesh.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
 #include <unordered_map>
-#include <vector>
 
 namespace pcl::floater {
 /// The crossing pairs of a mesh. A search changes the mesh, asks for the effect on the pairs around
@@ -20,7 +18,7 @@ class CrossingTable
 {
 public:
   /// \param pairs all pairs of the mesh (see findSelfIntersections)
-  CrossingTable (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+  CrossingTable (const TriangleMesh& mesh, const Positions& positions,
                  const std::vector<CrossingPair>& pairs, const RunContext& run)
       : mesh_ (mesh), positions_ (positions),
         order_ (orderByPoints (mesh.triangles, positions.size ())), place_ (order_.size ()),
@@ -149,7 +147,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   std::vector<Index> order_, place_; // triangles in the tree, and the inverse
   BoxTree tree_;
   std::unordered_map<Index, std::vector<Index>> partners_; // of the triangles that cross others

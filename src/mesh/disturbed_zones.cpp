@@ -6,8 +6,6 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -17,9 +15,9 @@ namespace {
 class ZoneFinder
 {
 public:
-  ZoneFinder (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const CsrLists& neighbors, const std::vector<float>& spacing, bool whole_loops,
-              const DisturbanceLimits& limits, const RunContext& run)
+  ZoneFinder (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+              const std::vector<float>& spacing, bool whole_loops, const DisturbanceLimits& limits,
+              const RunContext& run)
       : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
         whole_loops_ (whole_loops), limits_ (limits), run_ (run)
   {
@@ -58,10 +56,10 @@ private:
   {
     std::size_t loop;
     double way; // along the loop
-    Eigen::Vector3d normal;
+    Vector3d normal;
   };
 
-  Eigen::Vector3d normalOf (Index t) const { return areaVectorOf (mesh_.triangles[t], positions_); }
+  Vector3d normalOf (Index t) const { return areaVectorOf (mesh_.triangles[t], positions_); }
 
   void readLoops ()
   {
@@ -73,7 +71,7 @@ private:
       for (const Index p : loops_[l]) {
         way += (positions_[p] - positions_[last]).norm ();
         last = p;
-        Eigen::Vector3d normal = Eigen::Vector3d::Zero ();
+        Vector3d normal = Vector3d::Zero ();
         mesh_.fan (p, fan);
         for (const Index t : fan)
           normal += normalOf (t);
@@ -177,15 +175,15 @@ private:
   bool isDelaunay (Index t) const
   {
     const Triangle& corners = mesh_.triangles[t];
-    const Eigen::Vector3d& a = positions_[corners[0]];
-    const Eigen::Vector3d ab = positions_[corners[1]] - a, ac = positions_[corners[2]] - a,
-                          normal = ab.cross (ac), to_centre = toCircumcentre (ab, ac, normal);
+    const Vector3d& a = positions_[corners[0]];
+    const Vector3d ab = positions_[corners[1]] - a, ac = positions_[corners[2]] - a,
+                   normal = ab.cross (ac), to_centre = toCircumcentre (ab, ac, normal);
     double least = -std::numeric_limits<double>::infinity (), most = -least;
     for (const Index corner : corners)
       for (const Index p : neighbors_.row (corner)) {
         if (isCorner (corners, p))
           continue;
-        const Eigen::Vector3d offset = positions_[p] - a;
+        const Vector3d offset = positions_[p] - a;
         const double up = 2.0 * normal.dot (offset),
                      outside = offset.squaredNorm () - 2.0 * offset.dot (to_centre);
         if (up > 0.0)
@@ -200,9 +198,9 @@ private:
   void markDisturbed ()
   {
     const std::size_t count = mesh_.triangles.size ();
-    std::vector<std::uint8_t> is_marked (count, 0);
+    Flags is_marked (count, 0);
     parallelPoints (run_, count, [&] (Index t) {
-      const Eigen::Vector3d normal = normalOf (t);
+      const Vector3d normal = normalOf (t);
       bool bends = false, folds = false;
       for (const Index u : mesh_.neighbors[t])
         if (u != NONE) {
@@ -279,7 +277,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const CsrLists& neighbors_;
   const std::vector<float>& spacing_;
   const bool whole_loops_;
@@ -288,7 +286,7 @@ private:
   std::vector<std::vector<Index>> loops_;
   std::vector<double> lengths_; // of the loops
   std::unordered_map<Index, OnLoop> on_loop_;
-  std::vector<std::uint8_t> is_wrong_, is_disturbed_; // of each point
+  Flags is_wrong_, is_disturbed_; // of each point
   DisturbedZones zones_;
   std::vector<Index> free_;
   std::vector<Index> fan_; // scratch
@@ -297,10 +295,10 @@ private:
 } // namespace
 
 DisturbedZones
-findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                    const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings, bool whole_loops,
-                    const DisturbanceLimits& limits, const RunContext& run)
+findDisturbedZones (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+                    const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
+                    int rings, bool whole_loops, const DisturbanceLimits& limits,
+                    const RunContext& run)
 {
   return ZoneFinder (mesh, positions, neighbors, spacing, whole_loops, limits, run)
       .find (crossing, rings);

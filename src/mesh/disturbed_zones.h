@@ -8,8 +8,6 @@
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_mesh.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of findDisturbedZones (). Lengths are in local spacings. Chosen on generated bodies with
 /// sharp edges, thin walls and contacts, and on clouds with true openings.
@@ -33,11 +31,11 @@ struct DisturbanceLimits
 /// Free points, whose triangles are to be made anew.
 struct DisturbedZones
 {
-  CsrLists points;                       ///< of each zone, ascending. Two zones share no triangle
-                                         ///< corner, and no point of one is a neighbour of another
-  std::vector<std::uint8_t> is_free;     ///< of each point; empty if there is no zone
-  bool may_be_parts = false;             ///< some loops look like gaps only in part
-  std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays; not free
+  CsrLists points;           ///< of each zone, ascending. Two zones share no triangle
+                             ///< corner, and no point of one is a neighbour of another
+  Flags is_free;             ///< of each point; empty if there is no zone
+  bool may_be_parts = false; ///< some loops look like gaps only in part
+  Flags is_boundary;         ///< of each point: on a boundary that stays; not free
 };
 
 /// Finds what is wrong: triangles that cross, points without a triangle, and boundary loops that
@@ -50,9 +48,9 @@ struct DisturbedZones
 /// \param rings     width of a zone around what is disturbed
 /// \param whole_loops whether a loop that is a gap in part counts as one all along
 DisturbedZones
-findDisturbedZones (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                    const CsrLists& neighbors, const std::vector<float>& spacing,
-                    const std::vector<CrossingPair>& crossing, int rings, bool whole_loops,
-                    const DisturbanceLimits& limits, const RunContext& run);
+findDisturbedZones (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+                    const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
+                    int rings, bool whole_loops, const DisturbanceLimits& limits,
+                    const RunContext& run);
 
 } // namespace pcl::floater

@@ -6,12 +6,6 @@
 #include "mesh/facing_objects.h"
 #include "mesh/visibility.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // Confidence in rooms, since a box may have windows; and the share of all directions in which only one
@@ -22,9 +16,9 @@ constexpr double ROOM_CERTAINTY = 0.8, BOWL = 0.3;
 class FacingJudge
 {
 public:
-  FacingJudge (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const MeshComponents& found, const FacingObjects& objects, const FacingHints& hints,
-               const FacingLimits& limits, const RunContext& run)
+  FacingJudge (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& found,
+               const FacingObjects& objects, const FacingHints& hints, const FacingLimits& limits,
+               const RunContext& run)
       : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
         limits_ (limits), run_ (run), judged_ (objects.sums.size ()),
         is_turned_ (objects.sums.size (), 0), is_body_ (objects.sums.size (), 0)
@@ -143,7 +137,7 @@ private:
   // Terrain faces up. What stands was scanned from the side to which it bulges, if it does.
   void decideSheet (Index o, double certainty)
   {
-    const Eigen::Vector3d& normal = objects_.sums[o].area_vector;
+    const Vector3d& normal = objects_.sums[o].area_vector;
     const bool is_down = facesDown (normal, limits_);
     const double bulge = isUpright (normal, limits_) ? commonBulge () : 0.0;
     if (std::abs (bulge) >= limits_.bulge)
@@ -178,7 +172,7 @@ private:
       std::optional<SightLineSampler>& sampler = samplers[objects_.of_component[component]];
       if (!sampler)
         continue;
-      const Eigen::Vector3d normal = areaVectorOf (mesh_.triangles[t], positions_);
+      const Vector3d normal = areaVectorOf (mesh_.triangles[t], positions_);
       const double area = normal.norm ();
       if (area > 0.0)
         sampler->add (t, area, middleOf (mesh_.triangles[t], positions_),
@@ -197,7 +191,7 @@ private:
   // Whether nothing blocks a ray from a line's triangle. Needs rays ().
   // \param blocks (t, at): whether a triangle does, at this multiple of the direction
   template <typename Blocks>
-  bool isFree (const SightLine& line, const Eigen::Vector3d& direction, Blocks&& blocks) const
+  bool isFree (const SightLine& line, const Vector3d& direction, Blocks&& blocks) const
   {
     bool is_free = true;
     rays_->forHits (line.middle, direction, [&] (Index t, double at) {
@@ -280,7 +274,7 @@ private:
   {
     const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
     Eigen::AlignedBox3d box = outer.box;
-    const Eigen::Vector3d margin = limits_.nesting_margin * box.sizes ();
+    const Vector3d margin = limits_.nesting_margin * box.sizes ();
     box.min () -= margin;
     box.max () += margin;
     return inner.area < outer.area && box.contains (inner.box);
@@ -345,7 +339,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const MeshComponents& found_;
   const FacingObjects& objects_;
   const FacingHints& hints_;
@@ -353,17 +347,17 @@ private:
   const RunContext& run_;
   std::optional<TriangleRays> rays_; // made on demand
   std::vector<FacingObject> judged_;
-  std::vector<std::uint8_t> is_turned_; // of each object
-  std::vector<std::uint8_t> is_body_;   // of each object: may contain others
-  std::vector<double> bulges_;          // of each object, made on demand
-  std::optional<double> common_bulge_;  // made on demand
+  Flags is_turned_;                    // of each object
+  Flags is_body_;                      // of each object: may contain others
+  std::vector<double> bulges_;         // of each object, made on demand
+  std::optional<double> common_bulge_; // made on demand
 };
 
 } // namespace
 
 MeshFacing
-faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
+faceOutwards (TriangleMesh& mesh, const Positions& positions, const FacingHints& hints,
+              const FacingLimits& limits, const RunContext& run)
 {
   MeshFacing facing;
   FacingHints usable = hints;
@@ -375,7 +369,7 @@ faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
   const FacingObjects objects = findObjects (mesh, positions, found, usable, limits, run);
   FacingJudge judge (mesh, positions, found, objects, usable, limits, run);
   facing.objects = judge.judge ();
-  std::vector<std::uint8_t> is_turned;
+  Flags is_turned;
   for (Index c = 0; c < found.count; ++c)
     is_turned.push_back (
         judge.isTurned (objects.of_component[c]) != (objects.is_opposite[c] != 0) ? 1 : 0);

@@ -7,9 +7,6 @@
 
 #include <pcl/surface/floater/report.h>
 
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds for the continuation of a boundary edge.
 struct ContinuationLimits
@@ -89,13 +86,13 @@ struct FacingLimits
 /// Facts beyond the mesh.
 struct FacingHints
 {
-  std::optional<Eigen::Vector3d> sensor; ///< position of the sensor, if known
+  std::optional<Vector3d> sensor; ///< position of the sensor, if known
   bool is_one_view = false;  ///< all open components already have the same orientation: towards the
                              ///< unknown sensor, or away from it
   bool faces_sensor = false; ///< all open components face the sensor already
   Facing wanted = Facing::AUTO;
-  const std::vector<Eigen::Vector3f>* normals = nullptr; ///< of the points, to the front of the
-                                                         ///< surface, zero where unknown
+  const Normals* normals = nullptr; ///< of the points, to the front of the
+                                    ///< surface, zero where unknown
 
   bool wantsASide () const { return wanted == Facing::OUTWARDS || wanted == Facing::INWARDS; }
 };
@@ -153,7 +150,7 @@ struct MeshFacing
 /// bulges. INWARDS is the opposite of it. With UP and VIEWPOINT, every component is oriented by
 /// itself. O(n log n), about 0.3 microseconds per point of a body.
 MeshFacing
-faceOutwards (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
+faceOutwards (TriangleMesh& mesh, const Positions& positions, const FacingHints& hints,
+              const FacingLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -6,30 +6,27 @@
 #include "core/parallel.h"
 #include "points/kd_tree.h"
 
-#include <cmath>
 #include <map>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
 std::vector<FacingSums>
-sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+sumComponents (const TriangleMesh& mesh, const Positions& positions,
                const MeshComponents& components, const FacingHints& hints,
                const FacingLimits& limits, const RunContext& run)
 {
   const double room_sine = std::sin (limits.room_angle * DEGREE);
   std::vector<FacingSums> sums (components.count);
-  std::vector<Eigen::Vector3d> origins (
-      components.count); // near ones, for precision of the volumes
+  std::vector<Vector3d> origins (components.count); // near ones, for precision of the volumes
   ProgressLoop progress (run);
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
     progress.next ();
     const Triangle& corners = mesh.triangles[t];
     FacingSums& sum = sums[components.of_triangle[t]];
-    Eigen::Vector3d& origin = origins[components.of_triangle[t]];
+    Vector3d& origin = origins[components.of_triangle[t]];
     if (sum.triangles++ == 0)
       origin = positions[corners[0]];
-    const Eigen::Vector3d area_vector = areaVectorOf (corners, positions);
+    const Vector3d area_vector = areaVectorOf (corners, positions);
     const double area = area_vector.norm ();
     sum.area_vector += area_vector;
     sum.area += area;
@@ -52,7 +49,7 @@ sumComponents (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
         sum.told += std::abs (part);
       }
     if (hints.sensor) {
-      const Eigen::Vector3d way = *hints.sensor - middleOf (corners, positions);
+      const Vector3d way = *hints.sensor - middleOf (corners, positions);
       const double cube = way.squaredNorm () * way.norm ();
       const double solid_angle = cube > 0.0 ? way.dot (area_vector) / cube : 0.0;
       sum.seen += solid_angle;
@@ -71,23 +68,22 @@ struct OpenEdge
 {
   Index component, from, to;
   double length;
-  Eigen::Vector3d along; // unit length, the surface on the left
-  Eigen::Vector3d ahead; // unit length, in the plane of the triangle, away from it
+  Vector3d along; // unit length, the surface on the left
+  Vector3d ahead; // unit length, in the plane of the triangle, away from it
 };
 
 // Boundary edges; their directions are means with those of the edges before and after, since borders
 // are ragged.
 std::vector<OpenEdge>
-findOpenEdges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+findOpenEdges (const TriangleMesh& mesh, const Positions& positions,
                const MeshComponents& components)
 {
   std::vector<OpenEdge> rough;
   std::vector<Index> leaving (positions.size (), NONE), arriving = leaving; // edges of each point
   for (const MeshEdge e : boundaryEdges (mesh)) {
     const Index from = mesh.from (e), to = mesh.to (e);
-    const Eigen::Vector3d step = positions[to] - positions[from], along = step.normalized ();
-    const Eigen::Vector3d normal =
-        areaVectorOf (mesh.triangles[e.triangle], positions).normalized ();
+    const Vector3d step = positions[to] - positions[from], along = step.normalized ();
+    const Vector3d normal = areaVectorOf (mesh.triangles[e.triangle], positions).normalized ();
     leaving[from] = arriving[to] = static_cast<Index> (rough.size ());
     rough.push_back (
         {components.of_triangle[e.triangle], from, to, step.norm (), along, along.cross (normal)});
@@ -106,7 +102,7 @@ findOpenEdges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
 
 // How well one edge continues another: positive if their fronts are on the same side.
 double
-agreement (const OpenEdge& one, const OpenEdge& other, const Eigen::Vector3d& across, double cosine)
+agreement (const OpenEdge& one, const OpenEdge& other, const Vector3d& across, double cosine)
 {
   const double ahead = across.dot (one.ahead), back = -across.dot (other.ahead);
   return ahead >= cosine && back >= cosine ? -one.along.dot (other.along) * ahead * back : 0.0;
@@ -122,14 +118,14 @@ struct Continuation
 
 // In the order of (a, b).
 std::vector<Continuation>
-findContinuations (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+findContinuations (const TriangleMesh& mesh, const Positions& positions,
                    const MeshComponents& components, const ContinuationLimits& limits,
                    const RunContext& run)
 {
   if (components.count < 2)
     return {};
   const std::vector<OpenEdge> edges = findOpenEdges (mesh, positions, components);
-  std::vector<Eigen::Vector3d> middles;
+  Positions middles;
   std::vector<double> length (components.count, 0.0), count = length;
   for (const OpenEdge& edge : edges) {
     middles.emplace_back (0.5 * (positions[edge.from] + positions[edge.to]));
@@ -149,10 +145,10 @@ findContinuations (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
   using Neighbors = std::vector<Neighbor>;
   parallelPoints<Neighbors> (run, votes.size (), [&] (Index i, Neighbors& near) {
     const OpenEdge& edge = edges[i];
-    const auto to = [&] (Index j, const Eigen::Vector3d& middle) {
+    const auto to = [&] (Index j, const Vector3d& middle) {
       return agreement (edge, edges[j], (middle - middles[i]).normalized (), limits.cosine);
     };
-    const auto faces = [&] (const Neighbor& neighbor, const Eigen::Vector3d& middle) {
+    const auto faces = [&] (const Neighbor& neighbor, const Vector3d& middle) {
       return std::abs (to (neighbor.point, middle)) > 0.0;
     };
     const double reach = limits.reach * (length[edge.component] / count[edge.component]);
@@ -182,7 +178,7 @@ findContinuations (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
 
 // Components to be oriented together, unless something contradicts.
 std::vector<Continuation>
-findTogether (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
+findTogether (const TriangleMesh& mesh, const Positions& positions,
               const MeshComponents& components, const std::vector<FacingSums>& sums,
               const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
 {
@@ -229,9 +225,8 @@ join (std::vector<Continuation> continuations, const std::vector<FacingSums>& su
 } // namespace
 
 FacingObjects
-findObjects (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const MeshComponents& components, const FacingHints& hints, const FacingLimits& limits,
-             const RunContext& run)
+findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
+             const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
 {
   const std::vector<FacingSums> sums =
       sumComponents (mesh, positions, components, hints, limits, run);
@@ -253,14 +248,14 @@ findObjects (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& posit
 }
 
 std::vector<double>
-bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const MeshComponents& components, const FacingObjects& objects, double flatness)
+bulgesOf (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
+          const FacingObjects& objects, double flatness)
 {
   const std::size_t count = objects.sums.size ();
-  std::vector<Eigen::Vector3d> middle (count, Eigen::Vector3d::Zero ()); // of the boundary
+  std::vector<Vector3d> middle (count, Vector3d::Zero ()); // of the boundary
   std::vector<double> length (count, 0.0);
   for (const MeshEdge e : boundaryEdges (mesh)) {
-    const Eigen::Vector3d &from = positions[mesh.from (e)], &to = positions[mesh.to (e)];
+    const Vector3d &from = positions[mesh.from (e)], &to = positions[mesh.to (e)];
     const Index o = objects.of_component[components.of_triangle[e.triangle]];
     middle[o] += 0.5 * (to - from).norm () * (from + to);
     length[o] += (to - from).norm ();
@@ -286,7 +281,7 @@ bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& position
 }
 
 bool
-facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
+facesDown (const Vector3d& normal, const FacingLimits& limits)
 {
   const double longest = normal.cwiseAbs ().maxCoeff ();
   for (const int axis : {2, 1})
@@ -296,7 +291,7 @@ facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits)
 }
 
 bool
-isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits)
+isUpright (const Vector3d& normal, const FacingLimits& limits)
 {
   return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
 }
@@ -309,7 +304,7 @@ certaintyOf (double factor)
 }
 
 double
-certaintyOfUp (const Eigen::Vector3d& normal)
+certaintyOfUp (const Vector3d& normal)
 {
   const double squared_length = normal.squaredNorm ();
   const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;

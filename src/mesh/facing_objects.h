@@ -5,14 +5,11 @@
 
 #include "mesh/facing.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace pcl::floater {
 /// Sums over the triangles of a component, or of the components of an object.
 struct FacingSums
 {
-  Eigen::Vector3d area_vector = Eigen::Vector3d::Zero (); ///< doubled, as the area
+  Vector3d area_vector = Vector3d::Zero (); ///< doubled, as the area
   double area = 0.0;
   double volume = 0.0;               ///< six times the volume enclosed by a closed one
   double seen = 0.0, in_sight = 0.0; ///< from the sensor: signed and unsigned solid angle, doubled
@@ -52,8 +49,8 @@ struct FacingSums
 struct FacingObjects
 {
   std::vector<Index> of_component;
-  std::vector<std::uint8_t> is_opposite; ///< of each component: its front is the back of the object
-  std::vector<FacingSums> sums;          ///< of each object
+  Flags is_opposite;            ///< of each component: its front is the back of the object
+  std::vector<FacingSums> sums; ///< of each object
 
   double sign (Index component) const { return is_opposite[component] != 0 ? -1.0 : 1.0; }
 };
@@ -67,25 +64,24 @@ struct FacingObjects
 /// \return the objects in the order of their first components. Contradictory normals are moved to
 ///     `contradictory`
 FacingObjects
-findObjects (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const MeshComponents& components, const FacingHints& hints, const FacingLimits& limits,
-             const RunContext& run);
+findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
+             const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
 
 /// How far each object bulges out of its boundary to its front: the volume between it and the
 /// middle of its boundary, signed over unsigned, from -1 to 1: 1 for a dome that faces outwards,
 /// about 0 for a wave, 0 for a flat one. O(n).
 /// \param flatness see FacingLimits
 std::vector<double>
-bulgesOf (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const MeshComponents& components, const FacingObjects& objects, double flatness);
+bulgesOf (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
+          const FacingObjects& objects, double flatness);
 
 /// Whether a sheet with this mean normal is to be turned to face up.
 bool
-facesDown (const Eigen::Vector3d& normal, const FacingLimits& limits);
+facesDown (const Vector3d& normal, const FacingLimits& limits);
 
 /// No terrain: it stands.
 bool
-isUpright (const Eigen::Vector3d& normal, const FacingLimits& limits);
+isUpright (const Vector3d& normal, const FacingLimits& limits);
 
 /// Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of
 /// two gives 0.9.
@@ -95,7 +91,7 @@ certaintyOf (double factor);
 /// Confidence that terrain or a sheet faces up: what lies has been seen from above, what stands from
 /// either side, and few roofs are steeper than 45 degrees.
 double
-certaintyOfUp (const Eigen::Vector3d& normal);
+certaintyOfUp (const Vector3d& normal);
 
 /// Of boxes with openings in their sides only, most are rooms: of a box that was seen from outside,
 /// nothing tells what is within, or the bottom is missing. All of the floor lies below the ceiling,

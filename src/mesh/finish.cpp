@@ -15,9 +15,8 @@ constexpr int WIDEST = 3, WIDEST_AGAIN = 2;
 
 // Fills small loops beside zones that were made anew. They are no openings.
 std::size_t
-fillPinholes (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const std::vector<float>& spacing, const TriangleCost& cost,
-              const std::vector<std::uint8_t>& is_remade, std::size_t largest,
+fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<float>& spacing,
+              const TriangleCost& cost, const Flags& is_remade, std::size_t largest,
               const RunContext& run)
 {
   std::vector<BoundaryLoop> pinholes;
@@ -39,11 +38,11 @@ fillPinholes (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 } // namespace
 
 MeshFinish
-finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run)
+finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry,
+            const FinishSettings& settings, const RunContext& run)
 {
   MeshFinish finish;
-  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
   const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
   run.beginStep (AFTER_POINTS);
@@ -101,12 +100,11 @@ finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 }
 
 Repairs
-repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            LocalGeometry& geometry, Repair kind, const FinishLimits& limits, MeshFinish& finish,
-            const RunContext& run)
+repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry, Repair kind,
+            const FinishLimits& limits, MeshFinish& finish, const RunContext& run)
 {
   // The triangles have changed; normals may have the wrong sign now.
-  std::vector<Eigen::Vector3f>& normals = geometry.stars.normals;
+  Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
   const Repairs done = repairFlaws (
       mesh, *finish.crossing, geometry.neighbors,

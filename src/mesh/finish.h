@@ -13,10 +13,6 @@
 #include "mesh/vertex_splits.h"
 #include "points/neighbors.h"
 
-#include <limits>
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// The limits of all steps of finishMesh.
 struct FinishLimits
@@ -63,14 +59,13 @@ struct MeshFinish
 /// \param positions of the points; the vertices lie on them
 /// \param geometry  normals of vertices get the side of the mesh before faceOutwards ()
 MeshFinish
-finishMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            LocalGeometry& geometry, const FinishSettings& settings, const RunContext& run);
+finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry,
+            const FinishSettings& settings, const RunContext& run);
 
 /// Repairs flaws. finishMesh () does so, the last time unless points are to be added.
 /// \param[in,out] finish knows all crossing pairs, and what was made anew
 Repairs
-repairMesh (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            LocalGeometry& geometry, Repair kind, const FinishLimits& limits, MeshFinish& finish,
-            const RunContext& run);
+repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry, Repair kind,
+            const FinishLimits& limits, MeshFinish& finish, const RunContext& run);
 
 } // namespace pcl::floater

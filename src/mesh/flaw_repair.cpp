@@ -8,7 +8,6 @@
 #include "mesh/crossing_table.h"
 #include "mesh/vertex_mover.h"
 
-#include <algorithm>
 #include <random>
 #include <unordered_map>
 
@@ -26,10 +25,10 @@ isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair re
   const bool bad = repair == Repair::BEFORE_REMAKING;
   if (bad && (cost.isTurned (mesh.triangles[t]) || cost.isFlat (mesh.triangles[t])))
     return true;
-  const Eigen::Vector3d own = normal (t);
+  const Vector3d own = normal (t);
   for (std::uint8_t side = 0; side < 3; ++side)
     if (const Index u = mesh.neighbors[t][side]; u != NONE) {
-      const Eigen::Vector3d other = normal (u);
+      const Vector3d other = normal (u);
       if ((bad ? own.dot (other) < 0.0 : isFold (own, other)) &&
           !ridges.has (mesh.from ({t, side}), mesh.to ({t, side})))
         return true;
@@ -38,15 +37,14 @@ isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair re
 }
 
 // Of each triangle.
-std::vector<std::uint8_t>
-findFlawed (const TriangleMesh& mesh, const TriangleCost& cost,
-            const std::vector<Eigen::Vector3d>& positions, Repair repair, const Ridges& ridges,
-            const RunContext& run)
+Flags
+findFlawed (const TriangleMesh& mesh, const TriangleCost& cost, const Positions& positions,
+            Repair repair, const Ridges& ridges, const RunContext& run)
 {
-  const auto normal = [&] (Index t) -> Eigen::Vector3d {
+  const auto normal = [&] (Index t) -> Vector3d {
     return areaVectorOf (mesh.triangles[t], positions);
   };
-  std::vector<std::uint8_t> is_flawed (mesh.triangles.size ());
+  Flags is_flawed (mesh.triangles.size ());
   parallelPoints (run, is_flawed.size (), [&] (Index t) {
     is_flawed[t] = isFlawed (mesh, cost, t, repair, ridges, normal) ? 1 : 0;
   });
@@ -56,9 +54,8 @@ findFlawed (const TriangleMesh& mesh, const TriangleCost& cost,
 class FlawRepair
 {
 public:
-  FlawRepair (TriangleMesh& mesh, std::vector<std::uint8_t> is_flawed,
-              const std::vector<CrossingPair>& pairs, const CsrLists& neighbors,
-              const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions,
+  FlawRepair (TriangleMesh& mesh, Flags is_flawed, const std::vector<CrossingPair>& pairs,
+              const CsrLists& neighbors, const TriangleCost& cost, const Positions& positions,
               Repair repair, const Ridges& ridges, const RepairLimits& limits,
               const RunContext& run)
       : mesh_ (mesh), repair_ (repair), ridges_ (ridges), limits_ (limits), run_ (run),
@@ -315,7 +312,7 @@ private:
     changed_ = mesh_.changedTriangles ();
     table_.accept (changed_);
     ++step_;
-    const auto normal = [this] (Index t) -> Eigen::Vector3d {
+    const auto normal = [this] (Index t) -> Vector3d {
       return mover_.cost () (mesh_.triangles[t]).unit_normal;
     };
     const auto look = [&] (Index t) {
@@ -354,7 +351,7 @@ private:
           ++sum.ridges;
           continue;
         }
-        const Eigen::Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
+        const Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
         sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
         sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
       }
@@ -367,7 +364,7 @@ private:
   const Ridges& ridges_;
   RepairLimits limits_;
   RunContext run_;
-  std::vector<std::uint8_t> is_flawed_; // of each triangle, see isFlawed
+  Flags is_flawed_; // of each triangle, see isFlawed
   CrossingTable table_;
   VertexMover mover_;
   std::size_t most_tests_;
@@ -386,12 +383,12 @@ private:
 
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
-             const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions, Repair repair,
+             const TriangleCost& cost, const Positions& positions, Repair repair,
              const Ridges& ridges, const RepairLimits& limits, const RunContext& run)
 {
   if (!crossing.untested.empty ())
     return {};
-  std::vector<std::uint8_t> is_flawed = findFlawed (mesh, cost, positions, repair, ridges, run);
+  Flags is_flawed = findFlawed (mesh, cost, positions, repair, ridges, run);
   if (crossing.empty () && std::count (is_flawed.begin (), is_flawed.end (), 1) == 0)
     return {};
   FlawRepair search (mesh, std::move (is_flawed), crossing, neighbors, cost, positions, repair,

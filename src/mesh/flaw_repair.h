@@ -8,8 +8,6 @@
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Costs and limits of the search. Where no measurement is told, they were chosen by hand.
 struct RepairLimits
@@ -78,7 +76,7 @@ struct Repairs
 /// \param ridges    edges that count neither as folded nor as bad
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
-             const TriangleCost& cost, const std::vector<Eigen::Vector3d>& positions, Repair repair,
+             const TriangleCost& cost, const Positions& positions, Repair repair,
              const Ridges& ridges, const RepairLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -6,22 +6,18 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
 void
-orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::vector<Eigen::Vector3f>& normals, const RunContext& run,
-               const std::vector<std::uint8_t>& is_remade)
+orientNormals (const TriangleMesh& mesh, const Positions& positions, Normals& normals,
+               const RunContext& run, const Flags& is_remade)
 {
   const TriangleRanges ranges (mesh.triangles, normals.size (), run);
   parallelTasks (run, ranges.count (), [&] (std::size_t r) {
     const std::size_t first = ranges.firstPoint (r), points = ranges.lastPoint (r) - first;
-    std::vector<Eigen::Vector3f> area (points, Eigen::Vector3f::Zero ());
+    Normals area (points, Vector3f::Zero ());
     for (const Index triangle : ranges.of (r)) {
       const Triangle& t = mesh.triangles[triangle];
-      const Eigen::Vector3f area_vector = areaVectorOf (t, positions).cast<float> ();
+      const Vector3f area_vector = areaVectorOf (t, positions).cast<float> ();
       for (const Index p : t)
         if (p - first < points) // also false if p is below
           area[p - first] += area_vector;
@@ -88,15 +84,14 @@ EdgeFlipper::improves (MeshEdge e) const
   // cost 0.
   const auto across = [this] (Index t, std::uint8_t side) {
     const Index other = mesh_.neighbors[t][side];
-    return other == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
+    return other == NONE ? Vector3d (Vector3d::Zero ())
                          : cost_ (mesh_.triangles[other]).unit_normal;
   };
-  const Eigen::Vector3d at_bc = across (e.triangle, TriangleMesh::next (e.side));
-  const Eigen::Vector3d at_ca = across (e.triangle, TriangleMesh::previous (e.side));
-  const Eigen::Vector3d at_ad = across (m.triangle, TriangleMesh::next (m.side));
-  const Eigen::Vector3d at_db = across (m.triangle, TriangleMesh::previous (m.side));
-  const auto at_edge = [&plain = cost_.plain ()] (const Eigen::Vector3d& p,
-                                                  const Eigen::Vector3d& q) {
+  const Vector3d at_bc = across (e.triangle, TriangleMesh::next (e.side));
+  const Vector3d at_ca = across (e.triangle, TriangleMesh::previous (e.side));
+  const Vector3d at_ad = across (m.triangle, TriangleMesh::next (m.side));
+  const Vector3d at_db = across (m.triangle, TriangleMesh::previous (m.side));
+  const auto at_edge = [&plain = cost_.plain ()] (const Vector3d& p, const Vector3d& q) {
     return plain.ofEdge (p, q);
   };
   const double total = now + at_edge (now_cab.unit_normal, now_dba.unit_normal) +

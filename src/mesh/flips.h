@@ -7,17 +7,14 @@
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Orients every normal towards the front of most of the area around its point. Normals of points
 /// without triangles stay. Points whose triangles were made in space get the normal of these: there,
 /// a tangent plane may belong to two sheets. O(n), on all threads.
 /// \param is_remade of each point: its triangles were made in space; or empty
 void
-orientNormals (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               std::vector<Eigen::Vector3f>& normals, const RunContext& run,
-               const std::vector<std::uint8_t>& is_remade = {});
+orientNormals (const TriangleMesh& mesh, const Positions& positions, Normals& normals,
+               const RunContext& run, const Flags& is_remade = {});
 
 /// Flips edges from a stack, and those around each flipped edge, until no flip lowers the cost of
 /// the mesh. A flip changes the cost of two triangles and their five edges. In the plane, this is

@@ -9,10 +9,9 @@ namespace pcl::floater {
 namespace {
 // Six times the volume between each component and its middle; positive if it faces outwards.
 std::vector<double>
-volumesOf (const TriangleMesh& mesh, const MeshComponents& components,
-           const std::vector<Eigen::Vector3d>& positions)
+volumesOf (const TriangleMesh& mesh, const MeshComponents& components, const Positions& positions)
 {
-  std::vector<Eigen::Vector3d> middle (components.count, Eigen::Vector3d::Zero ());
+  std::vector<Vector3d> middle (components.count, Vector3d::Zero ());
   std::vector<double> volume (components.count, 0.0), area (components.count, 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size (); ++i) {
     const Triangle& t = mesh.triangles[i];
@@ -32,13 +31,13 @@ volumesOf (const TriangleMesh& mesh, const MeshComponents& components,
 } // namespace
 
 std::vector<MeshEdge>
-findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const RunContext& run, AreFolded are_folded)
+findFolds (const TriangleMesh& mesh, const Positions& positions, const RunContext& run,
+           AreFolded are_folded)
 {
   RangeLists<MeshEdge> folds (mesh.triangles.size ());
   parallelRanges (run, mesh.triangles.size (), [&] (std::size_t first, std::size_t last) {
     for (auto t = static_cast<Index> (first); t < last; ++t) {
-      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions);
+      const Vector3d own = areaVectorOf (mesh.triangles[t], positions);
       for (std::uint8_t side = 0; side < 3; ++side)
         if (const Index u = mesh.neighbors[t][side];
             u != NONE && t < u && are_folded (own, areaVectorOf (mesh.triangles[u], positions)))
@@ -49,16 +48,15 @@ findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positio
 }
 
 Ridges
-findRidges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const CrossingPairs& crossing, const std::vector<std::uint8_t>& is_remade,
-            const RunContext& run)
+findRidges (const TriangleMesh& mesh, const Positions& positions, const CrossingPairs& crossing,
+            const Flags& is_remade, const RunContext& run)
 {
   Ridges ridges;
   if (std::find (is_remade.begin (), is_remade.end (), 1) == is_remade.end ())
     return ridges;
   const MeshComponents components = findComponents (mesh, run);
   const std::vector<double> volume = volumesOf (mesh, components, positions);
-  std::vector<std::uint8_t> is_trusted (mesh.triangles.size ());
+  Flags is_trusted (mesh.triangles.size ());
   for (std::size_t t = 0; t < is_trusted.size (); ++t)
     is_trusted[t] =
         anyCorner (mesh.triangles[t], [&] (Index p) { return is_remade[p] != 0; }) ? 1 : 0;
@@ -71,8 +69,8 @@ findRidges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
           is_trusted[mate.triangle] == 0)
         continue;
       const Index a = mesh.from (e), b = mesh.to (e);
-      const Eigen::Vector3d own = areaVectorOf (mesh.triangles[t], positions),
-                            other = areaVectorOf (mesh.triangles[mate.triangle], positions);
+      const Vector3d own = areaVectorOf (mesh.triangles[t], positions),
+                     other = areaVectorOf (mesh.triangles[mate.triangle], positions);
       const double above = (positions[mesh.corner (mate)] - positions[a]).dot (own);
       if (own.dot (other) < 0.0 && above * volume[components.of_triangle[t]] < 0.0)
         ridges.ends.push_back ({std::min (a, b), std::max (a, b)});

@@ -7,19 +7,14 @@
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_mesh.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
-
 namespace pcl::floater {
 /// Tells a folded edge by the area vectors of its triangles: isFold (), or isBent ().
-using AreFolded = bool (*) (const Eigen::Vector3d&, const Eigen::Vector3d&);
+using AreFolded = bool (*) (const Vector3d&, const Vector3d&);
 
 /// Folded edges, each once, in the order of their triangles. O(n).
 std::vector<MeshEdge>
-findFolds (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-           const RunContext& run, AreFolded are_folded = isFold);
+findFolds (const TriangleMesh& mesh, const Positions& positions, const RunContext& run,
+           AreFolded are_folded = isFold);
 
 /// Edges at sharp ridges, such as those of a blade.
 struct Ridges
@@ -41,8 +36,7 @@ struct Ridges
 /// \param crossing all pairs of the mesh
 /// \param is_remade of each point: its triangles were made in space (see remakeZones); or empty
 Ridges
-findRidges (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const CrossingPairs& crossing, const std::vector<std::uint8_t>& is_remade,
-            const RunContext& run);
+findRidges (const TriangleMesh& mesh, const Positions& positions, const CrossingPairs& crossing,
+            const Flags& is_remade, const RunContext& run);
 
 } // namespace pcl::floater

@@ -4,11 +4,8 @@
 
 #include "core/geometry.h"
 
-#include <algorithm>
-#include <array>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -18,8 +15,8 @@ using Edge = std::pair<Index, Index>; // the smaller point first
 class HoleFiller
 {
 public:
-  HoleFiller (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-              const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run)
+  HoleFiller (const TriangleMesh& mesh, const Positions& positions, const TriangleCost& cost,
+              const HoleFillingLimits& limits, const RunContext& run)
       : mesh_ (mesh), positions_ (positions), cost_ (cost), limits_ (limits), run_ (run),
         filling_ (run)
   {
@@ -117,7 +114,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const TriangleCost& cost_;
   HoleFillingLimits limits_;
   RunContext run_;
@@ -130,9 +127,8 @@ private:
 } // namespace
 
 std::size_t
-fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
-           const std::vector<Eigen::Vector3d>& positions, const TriangleCost& cost,
-           const HoleFillingLimits& limits, const RunContext& run)
+fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+           const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run)
 {
   HoleFiller filler (mesh, positions, cost, limits, run);
   std::size_t filled = 0, done = 0;

@@ -8,10 +8,6 @@
 #include "mesh/loops.h"
 #include "mesh/triangle_cost.h"
 
-#include <cmath>
-#include <limits>
-#include <vector>
-
 namespace pcl::floater {
 /// Triangulates polygons at least cost by dynamic programming over their sub-polygons (Barequet and
 /// Sharir 1995 "Filling gaps in the boundary of a polyhedron"; Liepa 2003 "Filling holes in
@@ -99,8 +95,7 @@ struct HoleFillingLimits
 /// \return number of loops filled
 /// \throws std::logic_error if the loops do not belong to the mesh
 std::size_t
-fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
-           const std::vector<Eigen::Vector3d>& positions, const TriangleCost& cost,
-           const HoleFillingLimits& limits, const RunContext& run);
+fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+           const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

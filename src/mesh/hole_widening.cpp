@@ -6,9 +6,7 @@
 #include "mesh/open_boundary.h"
 #include "mesh/trimming.h"
 
-#include <algorithm>
 #include <tuple>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -20,10 +18,9 @@ using TrianglesOverHoles = std::vector<std::pair<Index, Index>>;
 std::vector<BoundaryLoop>
 widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loops,
               const TrianglesOverHoles& removed, const std::vector<Index>& loop_of,
-              const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-              const RunContext& run)
+              const Positions& positions, const std::vector<float>& spacing, const RunContext& run)
 {
-  std::vector<std::uint8_t> is_widened (loops.size (), 0);
+  Flags is_widened (loops.size (), 0);
   for (const auto& [triangle, loop] : removed)
     is_widened[loop] = 1;
   std::vector<BoundaryLoop> found (loops.size ());
@@ -42,7 +39,7 @@ widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loop
 void
 removeOver (const TrianglesOverHoles& over, TriangleMesh& mesh, const RunContext& run)
 {
-  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
+  Flags is_removed (mesh.triangles.size (), 0);
   for (const auto& [triangle, loop] : over)
     is_removed[triangle] = 1;
   removeTriangles (mesh, std::move (is_removed), run);
@@ -55,7 +52,7 @@ removeOver (const TrianglesOverHoles& over, TriangleMesh& mesh, const RunContext
 TrianglesOverHoles
 findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
                const std::vector<LoopEvidence>& evidence, const std::vector<Index>& loop_of,
-               const std::vector<Eigen::Vector3d>& positions, const HoleWideningLimits& limits)
+               const Positions& positions, const HoleWideningLimits& limits)
 {
   BoundaryPeel peel (mesh, positions.size ());
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
@@ -93,9 +90,8 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
 } // namespace
 
 void
-widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
-            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
+widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+            const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
             const OpenLoopLimits& open_loops, const HoleWideningLimits& limits,
             const RunContext& run)
 {

@@ -6,11 +6,6 @@
 #include "local/planar_star.h"
 #include "mesh/hole_filling.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have arbitrary values
@@ -51,7 +46,7 @@ class RingWalk
 public:
   static constexpr Index RINGS = 4;
 
-  RingWalk (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions)
+  RingWalk (const TriangleMesh& mesh, const Positions& positions)
       : mesh_ (mesh), positions_ (positions), ring_of_ (positions.size (), NONE)
   {
   }
@@ -90,8 +85,8 @@ public:
     double angle = PI;
     around (p);
     for (std::size_t i = 1; i < around_.size (); ++i) {
-      const Eigen::Vector3d a = positions_[around_[i - 1]] - positions_[p];
-      const Eigen::Vector3d b = positions_[around_[i]] - positions_[p];
+      const Vector3d a = positions_[around_[i - 1]] - positions_[p];
+      const Vector3d b = positions_[around_[i]] - positions_[p];
       angle -= std::atan2 (a.cross (b).norm (), a.dot (b));
     }
     return angle;
@@ -105,15 +100,14 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   std::vector<Index> ring_of_; // of each point, NONE outside of a walk
   std::vector<Index> fan_, around_;
 };
 
 // The largest height of a triangle in a filling of least area.
 double
-findDepth (const std::vector<Index>& loop, const std::vector<Eigen::Vector3d>& positions,
-           PolygonFilling& filling)
+findDepth (const std::vector<Index>& loop, const Positions& positions, PolygonFilling& filling)
 {
   std::vector<Index> corners;
   const std::size_t count = std::min (loop.size (), MOST_CORNERS);
@@ -141,14 +135,14 @@ findDepth (const std::vector<Index>& loop, const std::vector<Eigen::Vector3d>& p
 }
 
 LoopEvidence
-lookAt (const BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions, RingWalk& rings,
+lookAt (const BoundaryLoop& loop, const Positions& positions, RingWalk& rings,
         PolygonFilling& filling)
 {
   const std::size_t count = loop.points.size ();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  Vector3d centre = Vector3d::Zero ();
   for (const Index p : loop.points)
     centre += positions[p] / static_cast<double> (count);
-  Eigen::Vector3d double_area = Eigen::Vector3d::Zero ();
+  Vector3d double_area = Vector3d::Zero ();
   double curvature = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Index p = loop.points[i], q = loop.points[i + 1 == count ? 0 : i + 1];
@@ -210,8 +204,7 @@ rank (const LoopJudgement& judgement, double value)
 } // namespace
 
 void
-measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<float>& spacing)
+measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing)
 {
   constexpr std::size_t WIDTH_POINTS = 256; // maximum for the width: its time is quadratic
   const std::vector<Index>& points = loop.points;
@@ -231,7 +224,7 @@ measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
 
 std::vector<BoundaryLoop>
 findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
-                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+                   const Positions& positions, const std::vector<float>& spacing,
                    const RunContext& run)
 {
   std::vector<BoundaryLoop> loops;
@@ -248,9 +241,8 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
 }
 
 std::vector<LoopEvidence>
-judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
-            const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, const OpenLoopLimits& limits,
+judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+            const CsrLists& neighbors, const Normals& normals, const OpenLoopLimits& limits,
             const RunContext& run)
 {
   PlanarStar star;
@@ -260,7 +252,7 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
     const TangentFrame frame (normals[p].cast<double> ());
     planar.clear ();
     for (const Index q : neighbors.row (p)) {
-      const Eigen::Vector3d offset = positions[q] - positions[p];
+      const Vector3d offset = positions[q] - positions[p];
       if (!same_sheet ||
           onSameSheet (frame.normal, normals[q].cast<double> (), offset, limits.sectors.sheet))
         planar.push_back ({frame.project (offset), q});
@@ -331,7 +323,7 @@ void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
                  double unit)
 {
-  std::vector<std::uint8_t> has_one (components, 0);
+  Flags has_one (components, 0);
   int kept = 0;
   switch (holes.policy) {
   case HolePolicy::CLOSE_ALL:

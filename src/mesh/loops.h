@@ -9,9 +9,6 @@
 
 #include <pcl/surface/floater/options.h>
 
-#include <cmath>
-#include <vector>
-
 namespace pcl::floater {
 /// Judgement of a boundary loop.
 struct LoopJudgement
@@ -43,13 +40,12 @@ struct BoundaryLoop
 /// too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
 void
-measureLoop (BoundaryLoop& loop, const std::vector<Eigen::Vector3d>& positions,
-             const std::vector<float>& spacing);
+measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing);
 
 /// All boundary loops of a mesh, measured, in the order of boundaryLoops (). O(n).
 std::vector<BoundaryLoop>
 findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
-                   const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
+                   const Positions& positions, const std::vector<float>& spacing,
                    const RunContext& run);
 
 /// Thresholds for points with a large empty sector.
@@ -127,9 +123,8 @@ isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
 /// \param normals   of each point of the mesh, unit length, any sign
 /// \return evidence of each loop, in the order of the loops
 std::vector<LoopEvidence>
-judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
-            const std::vector<Eigen::Vector3d>& positions, const CsrLists& neighbors,
-            const std::vector<Eigen::Vector3f>& normals, const OpenLoopLimits& limits,
+judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+            const CsrLists& neighbors, const Normals& normals, const OpenLoopLimits& limits,
             const RunContext& run);
 
 /// Changes the judgements of loops that are not certain by those of the loops of about the same width:
@@ -181,9 +176,8 @@ struct HoleWideningLimits
 /// \param loops   of the mesh, ascending by their smallest points before
 /// \param spacing local spacing of each point
 void
-widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops,
-            const std::vector<Eigen::Vector3d>& positions, const std::vector<float>& spacing,
-            const CsrLists& neighbors, const std::vector<Eigen::Vector3f>& normals,
+widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+            const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
             const OpenLoopLimits& open_loops, const HoleWideningLimits& limits,
             const RunContext& run);
 

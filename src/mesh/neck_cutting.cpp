@@ -8,13 +8,9 @@
 #include "mesh/self_intersections.h"
 #include "mesh/vertex_splits.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -33,9 +29,8 @@ struct Replacement
 class NeckCut
 {
 public:
-  NeckCut (const TriangleMesh& mesh, const std::vector<Index>& loop,
-           const std::vector<Eigen::Vector3d>& positions, const LocalGeometry& geometry,
-           const NeckLimits& limits, const RunContext& run)
+  NeckCut (const TriangleMesh& mesh, const std::vector<Index>& loop, const Positions& positions,
+           const LocalGeometry& geometry, const NeckLimits& limits, const RunContext& run)
       : mesh_ (mesh), limits_ (limits), run_ (run), points_ (loop),
         cost_ (positions_, normals_, &spacing_, limits.cost)
   {
@@ -208,7 +203,7 @@ private:
   double costOf (const TriangleMesh& mesh,
                  double most = std::numeric_limits<double>::infinity ()) const
   {
-    std::vector<Eigen::Vector3d> normals;
+    std::vector<Vector3d> normals;
     normals.reserve (mesh.triangles.size ());
     for (const Triangle& t : mesh.triangles)
       normals.push_back (areaVectorOf (t, positions_).normalized ());
@@ -235,22 +230,21 @@ private:
   const RunContext run_;
   std::vector<Index> points_, triangles_; // of the mesh
   std::vector<Index> loop_;
-  std::vector<Eigen::Vector3d> positions_;
-  std::vector<Eigen::Vector3f> normals_;
+  Positions positions_;
+  Normals normals_;
   std::vector<float> spacing_;
   CsrLists neighbors_;
   TriangleCost cost_;
   TriangleMesh before_;
-  std::vector<std::uint8_t> side_;       // of each triangle before: its sides of the loop
-  std::vector<std::uint8_t> is_on_loop_; // of each point
-  std::vector<std::uint8_t> is_rim_;     // of each point: some of its triangles are not here
+  Flags side_;       // of each triangle before: its sides of the loop
+  Flags is_on_loop_; // of each point
+  Flags is_rim_;     // of each point: some of its triangles are not here
 };
 
 // The cuts of all loops that may be made, the cheapest first.
 std::vector<Replacement>
-findCuts (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const LocalGeometry& geometry, const std::vector<std::uint8_t>& is_skipped,
-          const NeckLimits& limits, const RunContext& run)
+findCuts (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+          const Flags& is_skipped, const NeckLimits& limits, const RunContext& run)
 {
   const std::vector<std::vector<Index>> loops =
       findNeckLoops (mesh, positions, is_skipped, limits.longest_loop, run);
@@ -273,7 +267,7 @@ withCuts (const TriangleMesh& mesh, const Replacement* first, const Replacement*
           std::size_t& cuts, std::vector<Index>& around)
 {
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> is_gone (mesh.triangles.size (), 0);
+  Flags is_gone (mesh.triangles.size (), 0);
   for (; first != last; ++first) {
     if (std::any_of (first->gone.begin (), first->gone.end (),
                      [&] (Index t) { return is_gone[t] != 0; }))
@@ -294,9 +288,8 @@ withCuts (const TriangleMesh& mesh, const Replacement* first, const Replacement*
 } // namespace
 
 std::size_t
-cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const LocalGeometry& geometry, std::vector<std::uint8_t> is_skipped,
-          const NeckLimits& limits, const RunContext& run)
+cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+          Flags is_skipped, const NeckLimits& limits, const RunContext& run)
 {
   std::size_t cuts = 0;
   is_skipped.resize (positions.size (), 0);
@@ -314,7 +307,7 @@ cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
     sortUnique (again);
     for (std::size_t ring = 0; ring < RINGS + limits.longest_loop / 2; ++ring)
       addRing (mesh, again);
-    std::vector<std::uint8_t> is_far (positions.size (), 1);
+    Flags is_far (positions.size (), 1);
     for (const Index p : again)
       is_far[p] = is_skipped[p];
     is_skipped = std::move (is_far);
@@ -322,9 +315,8 @@ cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
 }
 
 bool
-cutOneNeck (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const LocalGeometry& geometry, const std::vector<std::uint8_t>& is_skipped,
-            NeckLimits limits, const RunContext& run,
+cutOneNeck (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+            const Flags& is_skipped, NeckLimits limits, const RunContext& run,
             const std::function<bool (std::vector<Triangle>)>& take)
 {
   limits.cost_left = std::numeric_limits<double>::infinity ();

@@ -8,9 +8,6 @@
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
-#include <functional>
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of cutNecks ().
 struct NeckLimits
@@ -34,17 +31,15 @@ struct NeckLimits
 /// \param is_skipped of each point: none is looked for from there; empty: from all
 /// \return number of necks that were cut
 std::size_t
-cutNecks (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-          const LocalGeometry& geometry, std::vector<std::uint8_t> is_skipped,
-          const NeckLimits& limits, const RunContext& run);
+cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+          Flags is_skipped, const NeckLimits& limits, const RunContext& run);
 
 /// Tries the cuts of all necks one by one, the cheapest first, whatever it costs, until one is taken.
 /// \param take whether the mesh with these triangles is taken
 /// \return whether one is
 bool
-cutOneNeck (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-            const LocalGeometry& geometry, const std::vector<std::uint8_t>& is_skipped,
-            NeckLimits limits, const RunContext& run,
+cutOneNeck (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+            const Flags& is_skipped, NeckLimits limits, const RunContext& run,
             const std::function<bool (std::vector<Triangle>)>& take);
 
 /// Loops of at most `longest` edges around a neck with bent edges: a bridge between two parts of a
@@ -56,8 +51,7 @@ cutOneNeck (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positi
 /// \param is_skipped of each point: no loop is looked for from there; empty: from all
 /// \return the points of each loop, in order; the shortest loops first
 std::vector<std::vector<Index>>
-findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<std::uint8_t>& is_skipped, std::size_t longest,
-               const RunContext& run);
+findNeckLoops (const TriangleMesh& mesh, const Positions& positions, const Flags& is_skipped,
+               std::size_t longest, const RunContext& run);
 
 } // namespace pcl::floater

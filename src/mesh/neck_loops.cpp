@@ -6,10 +6,6 @@
 #include "core/order_statistics.h"
 #include "mesh/folds.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // What was reached since it was last cleared, in O(1).
@@ -31,8 +27,7 @@ class NeckFinder
 {
 public:
   // \param is_boundary of each point
-  NeckFinder (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_boundary,
-              std::size_t longest)
+  NeckFinder (const TriangleMesh& mesh, const Flags& is_boundary, std::size_t longest)
       : mesh_ (mesh), is_boundary_ (is_boundary), longest_ (longest),
         largest_cap_ (3 * longest * longest / 4), is_taken_ (mesh.triangles.size ()),
         is_reached_ (mesh.triangles.size ()), is_corner_ (mesh.triangle_of.size ()),
@@ -169,7 +164,7 @@ private:
   std::vector<Index> shortestLoop ()
   {
     markWay ();
-    std::vector<std::uint8_t> is_odd (visits_.size (), 0);
+    Flags is_odd (visits_.size (), 0);
     for (std::size_t i = 1; i < visits_.size (); ++i)
       is_odd[i] = is_odd[visits_[i].before] ^
                   crossings (visits_[i].point, visits_[visits_[i].before].point);
@@ -240,7 +235,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<std::uint8_t>& is_boundary_;
+  const Flags& is_boundary_;
   const std::size_t longest_;
   const std::size_t largest_cap_; // triangles of a sphere that such a loop goes around
   Marks is_taken_, is_reached_;   // triangles
@@ -257,9 +252,8 @@ private:
 } // namespace
 
 std::vector<std::vector<Index>>
-findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const std::vector<std::uint8_t>& is_skipped, std::size_t longest,
-               const RunContext& run)
+findNeckLoops (const TriangleMesh& mesh, const Positions& positions, const Flags& is_skipped,
+               std::size_t longest, const RunContext& run)
 {
   std::vector<std::vector<Index>> found;
   std::vector<Index> starts;
@@ -268,11 +262,11 @@ findNeckLoops (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& pos
   sortUnique (starts);
   if (starts.empty ())
     return found;
-  std::vector<std::uint8_t> is_boundary (positions.size (), 0);
+  Flags is_boundary (positions.size (), 0);
   for (const MeshEdge e : boundaryEdges (mesh))
     is_boundary[mesh.from (e)] = is_boundary[mesh.to (e)] = 1;
   NeckFinder finder (mesh, is_boundary, longest);
-  std::vector<std::uint8_t> is_searched = is_skipped;
+  Flags is_searched = is_skipped;
   is_searched.resize (positions.size (), 0);
   ProgressLoop progress (run, starts.size ());
   for (const Index p : starts) {

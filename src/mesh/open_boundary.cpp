@@ -7,11 +7,8 @@
 #include "mesh/folds.h"
 #include "mesh/trimming.h"
 
-#include <algorithm>
-#include <limits>
 #include <queue>
 #include <tuple>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -49,15 +46,13 @@ offerAround (MeshEdge fold, const TriangleMesh& mesh, BoundaryPeel& peel, Offer&
   }
 }
 
-using Positions = std::vector<Eigen::Vector3d>;
-
 // Cosine of the angle opposite to an edge; 1 if points coincide.
 double
 cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
 {
-  const Eigen::Vector3d& corner = positions[mesh.corner (e)];
-  const Eigen::Vector3d a = positions[mesh.from (e)] - corner;
-  const Eigen::Vector3d b = positions[mesh.to (e)] - corner;
+  const Vector3d& corner = positions[mesh.corner (e)];
+  const Vector3d a = positions[mesh.from (e)] - corner;
+  const Vector3d b = positions[mesh.to (e)] - corner;
   const double product = a.norm () * b.norm ();
   return product > 0.0 ? a.dot (b) / product : 1.0;
 }
@@ -81,8 +76,7 @@ sampleCorners (const TriangleMesh& mesh, const Positions& positions, const RunCo
 } // namespace
 
 std::size_t
-openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const RunContext& run)
+openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
   const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
   if (folds.empty ())

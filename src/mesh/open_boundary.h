@@ -5,9 +5,6 @@
 
 #include "mesh/triangle_mesh.h"
 
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Marks triangles to be removed from the boundary; the mesh itself stays unchanged. A triangle may
 /// be removed if it has one boundary edge, and its other corner is inside. So every point keeps a
@@ -51,13 +48,13 @@ public:
   void putBack (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 0; }
 
   /// Of each triangle: 1 if it is removed. For removeTriangles.
-  std::vector<std::uint8_t> takenTriangles () && { return std::move (is_taken_); }
+  Flags takenTriangles () && { return std::move (is_taken_); }
 
 private:
   const TriangleMesh& mesh_;
   std::vector<MeshEdge> edges_;
-  std::vector<std::uint8_t> is_taken_;       // per triangle
-  std::vector<std::uint8_t> is_at_boundary_; // per point
+  Flags is_taken_;       // per triangle
+  Flags is_at_boundary_; // per point
 };
 
 /// Removes triangles at a folded edge (isFold) near the boundary: one or two, if the fold then
@@ -71,8 +68,7 @@ private:
 /// would be wrong.
 /// \return number of triangles removed
 std::size_t
-openBoundaryFolds (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-                   const RunContext& run);
+openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run);
 
 /// At the boundary, the points alone do not determine whether the triangle in a notch belongs to
 /// the surface. If it does, its angles are like those of others; if it only fills the notch, the
@@ -98,7 +94,7 @@ struct NotchLimits
 /// loops and the genus stay. O(n); the result does not depend on the number of threads.
 /// \return number of triangles removed
 std::size_t
-openNotches (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const NotchLimits& limits, const RunContext& run);
+openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
+             const RunContext& run);
 
 } // namespace pcl::floater

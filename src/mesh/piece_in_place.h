@@ -9,10 +9,6 @@
 #include "mesh/two_sides.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// A triangle, or its other side.
 inline Triangle
@@ -28,8 +24,8 @@ class PieceInPlace
 {
 public:
   /// \param is_turned of each patch of the frame; empty: none is
-  PieceInPlace (const Place& place, const std::vector<Triangle>& others,
-                const std::vector<std::uint8_t>& is_turned, const RunContext& run)
+  PieceInPlace (const Place& place, const std::vector<Triangle>& others, const Flags& is_turned,
+                const RunContext& run)
       : place_ (place)
   {
     for (std::size_t p = 0; p < place.positions.size (); ++p)
@@ -129,8 +125,8 @@ private:
 
   const Place& place_;
   TriangleMesh mesh_;
-  std::vector<std::uint8_t> is_inside_;  // of each point: free, on the rim, or in other triangles
-  std::vector<std::uint8_t> is_outside_; // of each point: some of its triangles may be missing
+  Flags is_inside_;  // of each point: free, on the rim, or in other triangles
+  Flags is_outside_; // of each point: some of its triangles may be missing
   bool is_manifold_ = false;
 };
 

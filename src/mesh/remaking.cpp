@@ -10,11 +10,7 @@
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
 
-#include <algorithm>
-#include <numeric>
-#include <optional>
 #include <set>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -34,9 +30,9 @@ constexpr int MOST_GROWTHS = 4;
 class ZoneRemaker
 {
 public:
-  ZoneRemaker (const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-               const CsrLists& neighbors, const std::vector<float>& spacing,
-               const DisturbedZones& zones, const RemakingLimits& limits, const RunContext& run)
+  ZoneRemaker (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+               const std::vector<float>& spacing, const DisturbedZones& zones,
+               const RemakingLimits& limits, const RunContext& run)
       : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
         zones_ (zones), limits_ (limits), run_ (run)
   {
@@ -131,7 +127,7 @@ private:
             emit (i, static_cast<Index> (found - at.points.begin ()));
     });
     geometry.spacing = valuesAt (spacing_, at.points);
-    geometry.stars.normals.assign (points, Eigen::Vector3f::Zero ());
+    geometry.stars.normals.assign (points, Vector3f::Zero ());
     for (const Triangle& t : mesh.triangles)
       for (const Index p : t)
         geometry.stars.normals[p] += areaVectorOf (t, at.place.positions).cast<float> ();
@@ -146,7 +142,7 @@ private:
     std::multiset<Triangle> frame;
     for (std::size_t i = 0; i < place.frame.size (); ++i)
       frame.insert (turnedIf (made.is_turned[place.patch_of[i]] != 0, place.frame[i]));
-    std::vector<std::uint8_t> is_fixed;
+    Flags is_fixed;
     for (const std::uint8_t is_free : place.is_free)
       is_fixed.push_back (is_free == 0 ? 1 : 0);
     const auto take = [&] (std::vector<Triangle> triangles) {
@@ -171,7 +167,7 @@ private:
     zone.points = std::move (free);
     for (const Triangle& t : made.triangles)
       zone.triangles.push_back ({at.points[t[0]], at.points[t[1]], at.points[t[2]]});
-    std::vector<std::uint8_t> is_known (at.place.patches, 0);
+    Flags is_known (at.place.patches, 0);
     for (std::size_t i = 0; i < at.frame.size (); ++i)
       if (const Index patch = at.place.patch_of[i]; is_known[patch]++ == 0)
         zone.patches.push_back ({at.frame[i], made.is_turned[patch] != 0});
@@ -190,7 +186,7 @@ private:
     };
     std::for_each (made.triangles.begin (), made.triangles.end (), join);
     std::for_each (place.frame.begin (), place.frame.end (), join);
-    std::vector<std::uint8_t> is_held (place.positions.size (), 0);
+    Flags is_held (place.positions.size (), 0);
     for (const Triangle& t : place.frame)
       is_held[pieces.find (t[0])] = 1;
     made.triangles.erase (
@@ -226,7 +222,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   const CsrLists& neighbors_;
   const std::vector<float>& spacing_;
   const DisturbedZones& zones_;
@@ -250,9 +246,9 @@ zoneOfAll (std::size_t points)
 } // namespace
 
 void
-remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
-             int widest, RemadeZones& remade, const RemakingLimits& limits, const RunContext& run)
+remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+             const std::vector<float>& spacing, CrossingPairs& crossing, int widest,
+             RemadeZones& remade, const RemakingLimits& limits, const RunContext& run)
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
@@ -274,7 +270,7 @@ remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
       --rings;
     whole_loops = false;
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
-    std::vector<std::uint8_t> is_noise (made.size (), 0);
+    Flags is_noise (made.size (), 0);
     if (made.empty ())
       return;
     const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, limits,

@@ -6,9 +6,6 @@
 #include "mesh/disturbed_zones.h"
 #include "mesh/neck_cutting.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of remakeZones ().
 struct RemakingLimits
@@ -28,10 +25,10 @@ struct RemakingLimits
 /// What remakeZones () has done.
 struct RemadeZones
 {
-  std::vector<std::uint8_t> is_remade; ///< of each point: its triangles were made anew; or empty
-  std::vector<std::uint8_t> is_noisy;  ///< of each point: the last zone with it was noise, and a
-                                       ///< large one; or empty
-  bool is_noise = false;               ///< the cloud is noise, so that no zone can be made anew
+  Flags is_remade;       ///< of each point: its triangles were made anew; or empty
+  Flags is_noisy;        ///< of each point: the last zone with it was noise, and a
+                         ///< large one; or empty
+  bool is_noise = false; ///< the cloud is noise, so that no zone can be made anew
 
   std::size_t points () const
   {
@@ -57,8 +54,8 @@ struct RemadeZones
 /// \param widest    rings around what is disturbed, at first
 /// \param[in,out] remade adds what was done to what was done before
 void
-remakeZones (TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-             const CsrLists& neighbors, const std::vector<float>& spacing, CrossingPairs& crossing,
-             int widest, RemadeZones& remade, const RemakingLimits& limits, const RunContext& run);
+remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+             const std::vector<float>& spacing, CrossingPairs& crossing, int widest,
+             RemadeZones& remade, const RemakingLimits& limits, const RunContext& run);
 
 } // namespace pcl::floater

@@ -8,12 +8,8 @@
 #include "mesh/box_tree.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
-#include <array>
-
 namespace pcl::floater {
 namespace {
-using Positions = std::vector<Eigen::Vector3d>;
 
 // Relative rounding bound. The error of a product of three coordinate differences is some 20 units
 // in the last place of the product of their lengths; larger values have the right sign.
@@ -47,7 +43,7 @@ commonFirst (Triangle one, Triangle other)
 bool
 areSeparate (const Triangle& one, const Triangle& other, const Positions& positions)
 {
-  using Corner3 = std::array<Eigen::Vector3d, 3>;
+  using Corner3 = std::array<Vector3d, 3>;
   Corner3 a, b; // from a corner of the first
   double sqr_reach = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -56,20 +52,20 @@ areSeparate (const Triangle& one, const Triangle& other, const Positions& positi
     sqr_reach = std::max ({sqr_reach, a[i].squaredNorm (), b[i].squaredNorm ()});
   }
   const double sqr_precision = ROUNDING * ROUNDING * sqr_reach;
-  const auto range = [] (const Corner3& corners, const Eigen::Vector3d& direction) {
+  const auto range = [] (const Corner3& corners, const Vector3d& direction) {
     const double x = corners[0].dot (direction), y = corners[1].dot (direction),
                  z = corners[2].dot (direction);
     return std::make_pair (std::min ({x, y, z}), std::max ({x, y, z}));
   };
   // Whether a plane across this direction separates the triangles.
-  const auto isAcross = [&] (const Eigen::Vector3d& direction) {
+  const auto isAcross = [&] (const Vector3d& direction) {
     const auto [low, high] = range (a, direction);
     const auto [other_low, other_high] = range (b, direction);
     const double gap = std::max (other_low - high, low - other_high);
     return gap > 0.0 && gap * gap > sqr_precision * direction.squaredNorm ();
   };
-  const Eigen::Vector3d normal = areaVector (a[0], a[1], a[2]);
-  const Eigen::Vector3d other_normal = areaVector (b[0], b[1], b[2]);
+  const Vector3d normal = areaVector (a[0], a[1], a[2]);
+  const Vector3d other_normal = areaVector (b[0], b[1], b[2]);
   if (isAcross (normal) || isAcross (other_normal))
     return true;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -81,7 +77,7 @@ areSeparate (const Triangle& one, const Triangle& other, const Positions& positi
 }
 
 // The edges of a triangle at its first corner.
-using Edges = std::array<Eigen::Vector3d, 2>;
+using Edges = std::array<Vector3d, 2>;
 
 Edges
 edgesOf (const Triangle& t, const Positions& positions)
@@ -92,7 +88,7 @@ edgesOf (const Triangle& t, const Positions& positions)
 // Sign of a product of a direction and an edge; 0 if rounding might change it.
 // \param sqr_size squared product of the lengths of the edges that define the direction
 int
-sideOf (const Eigen::Vector3d& direction, double sqr_size, const Eigen::Vector3d& edge)
+sideOf (const Vector3d& direction, double sqr_size, const Vector3d& edge)
 {
   const double product = direction.dot (edge);
   if (!(product * product > ROUNDING * ROUNDING * sqr_size * edge.squaredNorm ()))
@@ -107,11 +103,11 @@ bool
 isBeside (const Edges& own, const Edges& other, int common)
 {
   const double sqr_a = own[0].squaredNorm (), sqr_b = own[1].squaredNorm ();
-  const Eigen::Vector3d normal = own[0].cross (own[1]);
+  const Vector3d normal = own[0].cross (own[1]);
   const int side = sideOf (normal, sqr_a * sqr_b, other[1]);
   if (common == 2 || (side != 0 && side == sideOf (normal, sqr_a * sqr_b, other[0])))
     return side != 0;
-  const auto areOut = [&other] (const Eigen::Vector3d& inwards, double sqr_size) {
+  const auto areOut = [&other] (const Vector3d& inwards, double sqr_size) {
     return sideOf (inwards, sqr_size, other[0]) < 0 && sideOf (inwards, sqr_size, other[1]) < 0;
   };
   return areOut (normal.cross (own[0]), sqr_a * sqr_a * sqr_b) ||
@@ -135,9 +131,9 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
   if (exact_tests != nullptr)
     ++*exact_tests;
   const auto at = [&positions] (const Triangle& t) {
-    return std::array<Eigen::Vector3d, 3>{positions[t[0]], positions[t[1]], positions[t[2]]};
+    return std::array<Vector3d, 3>{positions[t[0]], positions[t[1]], positions[t[2]]};
   };
-  const std::array<Eigen::Vector3d, 3> a = at (corners.one), b = at (corners.other);
+  const std::array<Vector3d, 3> a = at (corners.one), b = at (corners.other);
   if (areCollinear (a[0], a[1], a[2]) || areCollinear (b[0], b[1], b[2]))
     return false;
   if (corners.common == 3)

@@ -6,10 +6,6 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <Eigen/Geometry>
-
-#include <vector>
-
 namespace pcl::floater {
 /// Two triangles that share more than their common corners: they cross, touch, or overlap in a
 /// plane.
@@ -54,12 +50,12 @@ struct PairSearchLimits
 /// At most 40 microseconds per triangle, see PairSearchLimits; then there are more pairs.
 /// \param triangles an oriented manifold, corners below the number of positions
 CrossingPairs
-findSelfIntersections (const std::vector<Triangle>& triangles,
-                       const std::vector<Eigen::Vector3d>& positions, const RunContext& run);
+findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& positions,
+                       const RunContext& run);
 
 /// The box around a triangle.
 inline Eigen::AlignedBox3d
-boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
+boxOf (const Triangle& triangle, const Positions& positions)
 {
   Eigen::AlignedBox3d box (positions[triangle[0]]);
   box.extend (positions[triangle[1]]);
@@ -71,7 +67,7 @@ boxOf (const Triangle& triangle, const std::vector<Eigen::Vector3d>& positions)
 /// degenerate.
 /// \param exact_tests counts the tests by exact predicates, which take ten times as long
 bool
-doCross (const Triangle& one, const Triangle& other, const std::vector<Eigen::Vector3d>& positions,
+doCross (const Triangle& one, const Triangle& other, const Positions& positions,
          std::size_t* exact_tests = nullptr);
 
 } // namespace pcl::floater

@@ -6,11 +6,6 @@
 #include "core/exact.h"
 #include "core/order_statistics.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Moves tetrahedra to the other side where a free point does not have one piece of either side
 /// around it. What it is given must outlive it.
@@ -21,10 +16,9 @@ public:
   /// \param overlap   across each facet of each tetrahedron, see remakePlace ()
   /// \param is_frame  of each facet: it stays between two sides
   /// \param is_behind of each tetrahedron: its side, which changes
-  SideMending (const Tetrahedra& all, const std::vector<std::uint8_t>& is_free,
+  SideMending (const Tetrahedra& all, const Flags& is_free,
                const std::vector<std::array<double, 4>>& overlap,
-               const std::vector<std::array<std::uint8_t, 4>>& is_frame,
-               std::vector<std::uint8_t>& is_behind)
+               const std::vector<std::array<std::uint8_t, 4>>& is_frame, Flags& is_behind)
       : all_ (all), is_free_ (is_free), overlap_ (overlap), is_frame_ (is_frame),
         is_behind_ (is_behind), flaws_ (is_free.size (), NONE), is_left_out_ (is_free.size (), 0),
         is_reached_ (all.size ())
@@ -227,15 +221,15 @@ private:
   }
 
   const Tetrahedra& all_;
-  const std::vector<std::uint8_t>& is_free_;
+  const Flags& is_free_;
   const std::vector<std::array<double, 4>>& overlap_;
   const std::vector<std::array<std::uint8_t, 4>>& is_frame_;
-  std::vector<std::uint8_t>& is_behind_;
-  std::vector<Index> flaws_;              // of each point: flawsAt (), NONE if not known
-  std::vector<std::uint8_t> is_left_out_; // of each point: need not have two sides
-  std::vector<Index> piece_;              // scratch of flawsAt ()
-  std::vector<std::uint8_t> is_reached_;  // of each tetrahedron: the same
-  std::size_t work_ = 0, most_work_ = 0;  // tetrahedra that flawsAt () has looked at, and may
+  Flags& is_behind_;
+  std::vector<Index> flaws_;             // of each point: flawsAt (), NONE if not known
+  Flags is_left_out_;                    // of each point: need not have two sides
+  std::vector<Index> piece_;             // scratch of flawsAt ()
+  Flags is_reached_;                     // of each tetrahedron: the same
+  std::size_t work_ = 0, most_work_ = 0; // tetrahedra that flawsAt () has looked at, and may
 };
 
 } // namespace pcl::floater

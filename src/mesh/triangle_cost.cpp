@@ -4,10 +4,6 @@
 
 #include "core/geometry.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 TriangleCost::Value
 TriangleCost::value (Index a, Index b, Index c) const
@@ -22,10 +18,10 @@ TriangleCost::value (Index a, Index b, Index c) const
     return value (b, c, a);
   if (c < a && c < b)
     return value (c, a, b);
-  const Eigen::Vector3d ab = positions_[b] - positions_[a];
-  const Eigen::Vector3d ac = positions_[c] - positions_[a];
-  const Eigen::Vector3d bc = positions_[c] - positions_[b];
-  const Eigen::Vector3d area_vector = ab.cross (ac);
+  const Vector3d ab = positions_[b] - positions_[a];
+  const Vector3d ac = positions_[c] - positions_[a];
+  const Vector3d bc = positions_[c] - positions_[b];
+  const Vector3d area_vector = ab.cross (ac);
   const double double_area = area_vector.norm ();
   const double sqr_lengths = ab.squaredNorm () + ac.squaredNorm () + bc.squaredNorm ();
   // cot A + cot B + cot C = (a^2 + b^2 + c^2) / (4 area).
@@ -51,10 +47,10 @@ TriangleCost::value (Index a, Index b, Index c) const
 }
 
 double
-TriangleCost::agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector,
+TriangleCost::agreement (Index a, Index b, Index c, const Vector3d& area_vector,
                          double double_area) const
 {
-  const Eigen::Vector3f normal = normals_[a] + normals_[b] + normals_[c];
+  const Vector3f normal = normals_[a] + normals_[b] + normals_[c];
   const double length = normal.norm () * double_area;
   return length > 0.0 ? normal.cast<double> ().dot (area_vector) / length : 0.0;
 }
@@ -77,8 +73,8 @@ TriangleCost::isLong (const Triangle& corners) const
 bool
 TriangleCost::isFlat (const Triangle& corners) const
 {
-  const Eigen::Vector3d ab = positions_[corners[1]] - positions_[corners[0]],
-                        ac = positions_[corners[2]] - positions_[corners[0]];
+  const Vector3d ab = positions_[corners[1]] - positions_[corners[0]],
+                 ac = positions_[corners[2]] - positions_[corners[0]];
   constexpr double HEIGHT = std::numeric_limits<float>::epsilon ();
   return ab.cross (ac).norm () <= HEIGHT * std::max (ab.squaredNorm (), ac.squaredNorm ());
 }
@@ -87,7 +83,7 @@ bool
 TriangleCost::isTurned (const Triangle& corners) const
 {
   const auto [a, b, c] = corners;
-  const Eigen::Vector3d area_vector = areaVector (positions_[a], positions_[b], positions_[c]);
+  const Vector3d area_vector = areaVector (positions_[a], positions_[b], positions_[c]);
   return agreement (a, b, c, area_vector, area_vector.norm ()) < limits_.turned_cosine;
 }
 

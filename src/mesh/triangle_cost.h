@@ -7,10 +7,6 @@
 #include "core/types.h"
 #include "mesh/triangle_mesh.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace pcl::floater {
 /// Penalties of TriangleCost. The unit of cost is that of cotangents: a right isosceles triangle
 /// costs 2, an equilateral one 1.73. All values were chosen by hand, large compared with the cost
@@ -39,8 +35,7 @@ class TriangleCost
 public:
   /// \param normals unit length, oriented like the mesh (see orientNormals)
   /// \param spacing of each point (see localSpacing); nullptr: large triangles have no penalty
-  TriangleCost (const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Eigen::Vector3f>& normals,
+  TriangleCost (const Positions& positions, const Normals& normals,
                 const std::vector<float>* spacing = nullptr, const CostLimits& limits = {})
       : positions_ (positions), normals_ (normals), spacing_ (spacing), limits_ (limits)
   {
@@ -48,8 +43,8 @@ public:
 
   struct Value
   {
-    Eigen::Vector3d unit_normal; ///< zero if the triangle has no area
-    double cost;                 ///< 0 or more
+    Vector3d unit_normal; ///< zero if the triangle has no area
+    double cost;          ///< 0 or more
   };
 
   /// Exactly the same for each choice of the first corner.
@@ -72,18 +67,18 @@ public:
 
   /// Cost of an edge between two triangles: 0 up to an angle of 90 degrees between their normals,
   /// growing beyond; 0 if one of the normals is zero.
-  double ofEdge (const Eigen::Vector3d& unit_normal, const Eigen::Vector3d& other_unit_normal) const
+  double ofEdge (const Vector3d& unit_normal, const Vector3d& other_unit_normal) const
   {
     return limits_.fold_cost * std::max (0.0, -unit_normal.dot (other_unit_normal));
   }
 
 private:
   // Cosine between the area vector and the sum of the corners' normals; 0 if there is no area.
-  double agreement (Index a, Index b, Index c, const Eigen::Vector3d& area_vector,
+  double agreement (Index a, Index b, Index c, const Vector3d& area_vector,
                     double double_area) const;
 
-  const std::vector<Eigen::Vector3d>& positions_;
-  const std::vector<Eigen::Vector3f>& normals_;
+  const Positions& positions_;
+  const Normals& normals_;
   const std::vector<float>* spacing_; // nullptr: there is none
   CostLimits limits_;
 };
@@ -95,7 +90,7 @@ class CachedCost
 {
 public:
   explicit CachedCost (const TriangleCost& cost)
-      : cost_ (cost), entries_ (ENTRIES, Entry{{NONE, NONE, NONE}, {Eigen::Vector3d::Zero (), 0.0}})
+      : cost_ (cost), entries_ (ENTRIES, Entry{{NONE, NONE, NONE}, {Vector3d::Zero (), 0.0}})
   {
   }
 

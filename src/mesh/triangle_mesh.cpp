@@ -8,9 +8,7 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <algorithm>
 #include <atomic>
-#include <utility>
 
 namespace pcl::floater {
 void
@@ -192,8 +190,7 @@ TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
 
 // Both triangles of an edge are in the star of each of its ends, so the stars suffice.
 bool
-TriangleMesh::connect (std::size_t points, const RunContext& run,
-                       const std::vector<std::uint8_t>* may_be_split)
+TriangleMesh::connect (std::size_t points, const RunContext& run, const Flags* may_be_split)
 {
   // Tables of edges have 3 entries per triangle.
   requireCountable (3 * triangles.size (), NONE - 1, "a table of edges", "use fewer points");

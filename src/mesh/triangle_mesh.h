@@ -7,8 +7,6 @@
 #include "core/geometry.h"
 #include "core/run_context.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// An edge of a triangle, the one opposite to its corner `side` (0 to 2).
 struct MeshEdge
@@ -17,14 +15,14 @@ struct MeshEdge
   std::uint8_t side;
 };
 
-inline Eigen::Vector3d
-areaVectorOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+inline Vector3d
+areaVectorOf (const Triangle& t, const Positions& positions)
 {
   return areaVector (positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-inline Eigen::Vector3d
-middleOf (const Triangle& t, const std::vector<Eigen::Vector3d>& positions)
+inline Vector3d
+middleOf (const Triangle& t, const Positions& positions)
 {
   return (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
 }
@@ -136,8 +134,7 @@ struct TriangleMesh
   /// \param may_be_split of each point: whether it may have several fans; nullptr: none may
   /// \return false unless the triangles are an oriented manifold; the mesh is then unusable
   /// \throws IndexLimitReached if there are 2^32 / 3 triangles or more
-  bool connect (std::size_t points, const RunContext& run,
-                const std::vector<std::uint8_t>* may_be_split = nullptr);
+  bool connect (std::size_t points, const RunContext& run, const Flags* may_be_split = nullptr);
 
 private:
   // What was there before a change.

@@ -6,16 +6,12 @@
 #include "core/parallel.h"
 #include "mesh/self_intersections.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // Sets `fan` to the triangles around p, but for the largest run of those that remain.
 void
-findBesideLargestRun (const TriangleMesh& mesh, Index p,
-                      const std::vector<std::uint8_t>& is_removed, std::vector<Index>& fan,
-                      std::vector<Index>& ring)
+findBesideLargestRun (const TriangleMesh& mesh, Index p, const Flags& is_removed,
+                      std::vector<Index>& fan, std::vector<Index>& ring)
 {
   const auto isKept = [&is_removed] (Index t) { return is_removed[t] == 0; };
   // In a closed fan, a run may go on from the last triangle to the first: begin at a gap.
@@ -45,7 +41,7 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
             length > options.maximum_edge_length / points.scale) ||
            (options.maximum_edge_ratio > 0.0 && length > options.maximum_edge_ratio * unit);
   };
-  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
+  Flags is_removed (mesh.triangles.size (), 0);
   parallelPoints (run, is_removed.size (), [&] (Index t) {
     const auto& [a, b, c] = mesh.triangles[t];
     is_removed[t] = isTooLong (a, b) || isTooLong (b, c) || isTooLong (c, a) ? 1 : 0;
@@ -54,7 +50,7 @@ cutLongEdges (TriangleMesh& mesh, const Points& points, const std::vector<float>
 }
 
 // Of each triangle, whether it is cut off: of each pair one, those of most pairs first.
-std::vector<std::uint8_t>
+Flags
 coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
 {
   const CsrLists partners = makeCsrLists (triangles, [&pairs] (const auto& emit) {
@@ -70,7 +66,7 @@ coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
   std::stable_sort (order.begin (), order.end (), [&partners] (Index t, Index u) {
     return partners.row (t).size () > partners.row (u).size ();
   });
-  std::vector<std::uint8_t> is_in (triangles, 0);
+  Flags is_in (triangles, 0);
   for (const Index t : order) {
     const Row row = partners.row (t);
     is_in[t] = std::any_of (row.begin (), row.end (), [&is_in] (Index u) { return is_in[u] == 0; })
@@ -86,7 +82,7 @@ cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
 {
   const std::size_t before = mesh.triangles.size ();
   const CrossingPairs pairs = findSelfIntersections (mesh.triangles, points.positions, run);
-  std::vector<std::uint8_t> is_cut = coverPairs (before, pairs);
+  Flags is_cut = coverPairs (before, pairs);
   for (const Index t : pairs.untested)
     is_cut[t] = 1;
   removeTriangles (mesh, is_cut, run);
@@ -96,7 +92,7 @@ cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
 } // namespace
 
 void
-removeTriangles (TriangleMesh& mesh, std::vector<std::uint8_t> is_removed, const RunContext& run)
+removeTriangles (TriangleMesh& mesh, Flags is_removed, const RunContext& run)
 {
   std::vector<Index> changed; // points that lost a triangle, possibly repeated
   const auto addCorners = [&] (Index t) {
@@ -130,7 +126,7 @@ removeSmallComponents (TriangleMesh& mesh, std::size_t fewest_points, const RunC
 {
   const MeshComponents components = findComponents (mesh, run);
   const std::vector<std::size_t> points = countPoints (mesh, components);
-  std::vector<std::uint8_t> is_removed (mesh.triangles.size (), 0);
+  Flags is_removed (mesh.triangles.size (), 0);
   for (Index t = 0; t < mesh.triangles.size (); ++t)
     is_removed[t] = points[components.of_triangle[t]] < fewest_points ? 1 : 0;
   removeTriangles (mesh, std::move (is_removed), run);

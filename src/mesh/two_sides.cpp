@@ -7,14 +7,7 @@
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <numeric>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -31,7 +24,7 @@ public:
     bool operator== (const Side& s) const { return root == s.root && is_other == s.is_other; }
   };
 
-  SidesOfSpace (const Tetrahedra& tetrahedra, const std::vector<std::uint8_t>& is_free)
+  SidesOfSpace (const Tetrahedra& tetrahedra, const Flags& is_free)
       : tetrahedra_ (tetrahedra), parent_ (tetrahedra.size ()), is_other_ (tetrahedra.size (), 0),
         free_points_ (tetrahedra.size ())
   {
@@ -117,7 +110,7 @@ private:
 
   const Tetrahedra& tetrahedra_;
   std::vector<Index> parent_;
-  std::vector<std::uint8_t> is_other_;          // opposite to the parent
+  Flags is_other_;                              // opposite to the parent
   std::vector<std::vector<Index>> free_points_; // of each set, possibly repeated
   std::vector<Step> steps_;
   std::vector<Index> to_check_;
@@ -180,10 +173,10 @@ private:
           is_near_[t] = is_near_[t] | place_.is_free[p] | place_.is_rim[p];
   }
 
-  SeenCentre seenCentre (Index p, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal,
+  SeenCentre seenCentre (Index p, const Vector3d& centre, const Vector3d& normal,
                          double radius) const
   {
-    const Eigen::Vector3d offset = place_.positions[p] - centre;
+    const Vector3d offset = place_.positions[p] - centre;
     const double up = normal.dot (offset);
     const double angle =
         std::atan2 (offset.squaredNorm () - radius * radius, 2.0 * radius * std::abs (up));
@@ -200,14 +193,13 @@ private:
         if (other < t || isCorner (facet, NONE) || is_near_[t] == 0 || is_near_[other] == 0)
           continue;
         const unsigned l = sideTo (other, t);
-        const Eigen::Vector3d& a = place_.positions[facet[0]];
-        const Eigen::Vector3d ab = place_.positions[facet[1]] - a,
-                              ac = place_.positions[facet[2]] - a;
-        Eigen::Vector3d normal = ac.cross (ab); // into the tetrahedron
-        const Eigen::Vector3d to_centre = toCircumcentre (ab, ac, -normal);
+        const Vector3d& a = place_.positions[facet[0]];
+        const Vector3d ab = place_.positions[facet[1]] - a, ac = place_.positions[facet[2]] - a;
+        Vector3d normal = ac.cross (ab); // into the tetrahedron
+        const Vector3d to_centre = toCircumcentre (ab, ac, -normal);
         normal.normalize ();
         const double radius = to_centre.norm ();
-        const Eigen::Vector3d centre = a + to_centre;
+        const Vector3d centre = a + to_centre;
         const Index above = all_.corners[t][k], below = all_.corners[other][l];
         const SeenCentre x =
             above == NONE ? SeenCentre{PI / 2.0, 0.0} : seenCentre (above, centre, normal, radius);
@@ -355,13 +347,13 @@ private:
   const RunContext& run_;
   const Tetrahedra all_;
   SidesOfSpace sides_;
-  std::vector<std::uint8_t> is_near_; // of each tetrahedron: has a free corner, or one of the rim
+  Flags is_near_; // of each tetrahedron: has a free corner, or one of the rim
   std::vector<std::array<double, 4>> overlap_;        // across each facet
   std::vector<std::array<std::uint8_t, 4>> is_frame_; // of each facet
   std::vector<Facet> facets_;                         // by falling overlap
   std::vector<Index> front_of_patch_;                 // a tetrahedron, NONE if there is none
-  std::vector<std::uint8_t> is_behind_;               // of each tetrahedron
-  std::vector<std::uint8_t> is_turned_;
+  Flags is_behind_;                                   // of each tetrahedron
+  Flags is_turned_;
 };
 
 } // namespace

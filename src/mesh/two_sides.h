@@ -7,21 +7,17 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <Eigen/Core>
-
-#include <vector>
-
 namespace pcl::floater {
 /// A place whose triangles are made anew, and the triangles around it that stay. Points are
 /// numbered from 0 in the place.
 struct Place
 {
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<std::uint8_t> is_free;     ///< of each point: all its triangles are made anew
-  std::vector<std::uint8_t> is_rim;      ///< of each point: not free, but beside triangles that go
-  std::vector<std::uint8_t> is_boundary; ///< of each point: on a boundary that stays
-  std::vector<std::uint8_t> is_whole;    ///< of each point: all its triangles are in the place
-  std::vector<Triangle> frame;           ///< triangles that stay, none with a free corner
+  Positions positions;
+  Flags is_free;               ///< of each point: all its triangles are made anew
+  Flags is_rim;                ///< of each point: not free, but beside triangles that go
+  Flags is_boundary;           ///< of each point: on a boundary that stays
+  Flags is_whole;              ///< of each point: all its triangles are in the place
+  std::vector<Triangle> frame; ///< triangles that stay, none with a free corner
   std::vector<Index> patch_of; ///< of each triangle of the frame: its patch. The triangles of
                                ///< a patch face one side, those of two patches may not
   Index patches = 0;
@@ -30,8 +26,8 @@ struct Place
 /// The triangles of a place made anew.
 struct RemadePlace
 {
-  std::vector<Triangle> triangles;     ///< each with a free corner
-  std::vector<std::uint8_t> is_turned; ///< of each patch: its back is the front of `triangles`
+  std::vector<Triangle> triangles; ///< each with a free corner
+  Flags is_turned;                 ///< of each patch: its back is the front of `triangles`
   std::size_t flawed = 0; ///< free points at which the balls tell no two sides. Noise, if there are
                           ///< so many (see isNoise); nothing else is set then
   bool is_right = false;  ///< the new triangles are one fan around each free point, or none around

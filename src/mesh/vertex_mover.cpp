@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/vertex_mover.h"
 
-#include <algorithm>
-
 namespace pcl::floater {
 // Finds the filling of the hole that a vertex leaves. Returns false if it cannot leave.
 bool

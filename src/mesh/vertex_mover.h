@@ -7,8 +7,6 @@
 #include "mesh/hole_filling.h"
 #include "mesh/vertex_splits.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Removes a vertex, fills its hole by the triangulation of least cost (see PolygonFilling), and lets
 /// it join the mesh again by the split of one of its nearest neighbours, on any sheet (see

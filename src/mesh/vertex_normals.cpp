@@ -5,11 +5,6 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -19,25 +14,24 @@ namespace {
 struct CornerTerm
 {
   double angle; // 0: nothing
-  Eigen::Vector3d normal;
+  Vector3d normal;
 };
 
 CornerTerm
-cornerTerm (const Eigen::Vector3d& corner, const Eigen::Vector3d& next,
-            const Eigen::Vector3d& previous)
+cornerTerm (const Vector3d& corner, const Vector3d& next, const Vector3d& previous)
 {
   // Products of unit vectors neither overflow nor underflow. Degenerate triangles give zero or NaN.
-  const Eigen::Vector3d u = (next - corner).stableNormalized ();
-  const Eigen::Vector3d v = (previous - corner).stableNormalized ();
-  const Eigen::Vector3d across = u.cross (v);
+  const Vector3d u = (next - corner).stableNormalized ();
+  const Vector3d v = (previous - corner).stableNormalized ();
+  const Vector3d across = u.cross (v);
   const double sine = across.norm ();
   if (!(sine > 0.0))
-    return {0.0, Eigen::Vector3d::Zero ()};
+    return {0.0, Vector3d::Zero ()};
   return {std::atan2 (sine, u.dot (v)), across / sine};
 }
 
 // Sums the terms in a canonical order: the result does not depend on the order of the triangles.
-Eigen::Vector3f
+Vector3f
 meanNormal (std::vector<CornerTerm>& terms)
 {
   std::sort (terms.begin (), terms.end (), [] (const CornerTerm& a, const CornerTerm& b) {
@@ -46,7 +40,7 @@ meanNormal (std::vector<CornerTerm>& terms)
                : std::lexicographical_compare (a.normal.data (), a.normal.data () + 3,
                                                b.normal.data (), b.normal.data () + 3);
   });
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // avoids negative zeros
+  Vector3d sum = Vector3d::Zero (); // avoids negative zeros
   double angles = 0.0;
   for (const CornerTerm& term : terms) {
     sum += term.angle * term.normal;
@@ -57,14 +51,14 @@ meanNormal (std::vector<CornerTerm>& terms)
   const double rounding =
       static_cast<double> (terms.size ()) * angles * std::numeric_limits<double>::epsilon ();
   if (!(length > rounding))
-    return Eigen::Vector3f::Zero ();
+    return Vector3f::Zero ();
   return (sum / length).cast<float> ();
 }
 
 } // namespace
 
-std::vector<Eigen::Vector3f>
-vertexNormals (const std::vector<Eigen::Vector3d>& positions,
+Normals
+vertexNormals (const Positions& positions,
                const std::vector<std::array<std::uint32_t, 3>>& triangles, int threads)
 {
   for (const auto& triangle : triangles)
@@ -72,7 +66,7 @@ vertexNormals (const std::vector<Eigen::Vector3d>& positions,
       if (corner >= positions.size ())
         throw std::out_of_range ("a triangle names point " + std::to_string (corner) + " of " +
                                  std::to_string (positions.size ()));
-  std::vector<Eigen::Vector3f> normals (positions.size ());
+  Normals normals (positions.size ());
   const RunContext run (std::max (threads, 0));
   const TriangleRanges ranges (triangles, positions.size (), run);
   parallelTasks (run, ranges.count (), [&] (std::size_t r) {

@@ -5,16 +5,11 @@
 #include "core/geometry.h"
 #include "points/kd_tree.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
-Eigen::Vector3d
+Vector3d
 VertexSplitter::normalOf (Index t) const
 {
-  return t == NONE ? Eigen::Vector3d (Eigen::Vector3d::Zero ())
+  return t == NONE ? Vector3d (Vector3d::Zero ())
                    : areaVectorOf (mesh_.triangles[t], positions_).normalized ();
 }
 
@@ -39,36 +34,36 @@ VertexSplitter::bestCut (Index v, Index p)
   const std::size_t m = fan_.size (), ring = fan_.ring.size (),
                     count = fan_.is_closed ? 2 * m : ring;
   const bool is_open = !fan_.is_closed;
-  const Eigen::Vector3d at_v = positions_[v], at_p = positions_[p], offset = at_p - at_v;
+  const Vector3d at_v = positions_[v], at_p = positions_[p], offset = at_p - at_v;
   const double gap = offset.norm ();
   places_.resize (ring);
   double longest = 0.0;
   for (std::size_t k = 0; k < ring; ++k) {
     Place& place = places_[k];
-    const Eigen::Vector3d& here = positions_[fan_.ring[k]];
+    const Vector3d& here = positions_[fan_.ring[k]];
     place.length_v = (here - at_v).norm ();
     place.length_p = (here - at_p).norm ();
     longest = std::max (longest, place.length_v);
   }
   const double penalty = limits_.fold * longest;
   // Cost of an edge between triangles of these normals; 0 if one of them is zero.
-  const auto bend = [penalty] (const Eigen::Vector3d& a, const Eigen::Vector3d& b, double length) {
+  const auto bend = [penalty] (const Vector3d& a, const Vector3d& b, double length) {
     const double cosine = a.dot (b);
     if (a.isZero (0.0) || b.isZero (0.0))
       return 0.0;
     return length * std::acos (std::clamp (cosine, -1.0, 1.0)) + (cosine < -0.5 ? penalty : 0.0);
   };
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero ();
+  const Vector3d none = Vector3d::Zero ();
   for (std::size_t k = 0; k < ring; ++k) {
     Place& place = places_[k];
-    const Eigen::Vector3d& here = positions_[fan_.ring[k]];
+    const Vector3d& here = positions_[fan_.ring[k]];
     place.normal_v = place.normal_p = none;
     place.rim = 0.0;
     if (k < m) {
-      const Eigen::Vector3d& next = positions_[fan_.at (k + 1)];
-      const Eigen::Vector3d area = (here - at_p).cross (next - at_p);
+      const Vector3d& next = positions_[fan_.at (k + 1)];
+      const Vector3d area = (here - at_p).cross (next - at_p);
       const Index t = fan_.triangles[k];
-      const Eigen::Vector3d outer = normalOf (mesh_.neighbors[t][mesh_.sideOf (t, v)]);
+      const Vector3d outer = normalOf (mesh_.neighbors[t][mesh_.sideOf (t, v)]);
       const double length = (next - here).norm ();
       place.normal_v = (here - at_v).cross (next - at_v).normalized ();
       place.normal_p = area.normalized ();
@@ -81,11 +76,11 @@ VertexSplitter::bestCut (Index v, Index p)
     Place& place = places_[k];
     const Place& before = places_[(k + ring - 1) % ring];
     const bool is_start = is_open && k == 0, is_end = is_open && k == m;
-    const Eigen::Vector3d before_v = is_start ? none : before.normal_v,
-                          before_p = is_start ? none : before.normal_p;
-    const Eigen::Vector3d area = (positions_[fan_.ring[k]] - at_v).cross (offset);
+    const Vector3d before_v = is_start ? none : before.normal_v,
+                   before_p = is_start ? none : before.normal_p;
+    const Vector3d area = (positions_[fan_.ring[k]] - at_v).cross (offset);
     place.needle = area.normalized ();
-    const Eigen::Vector3d back = -place.needle;
+    const Vector3d back = -place.needle;
     const double flat = area.norm () < limits_.flat * place.length_v * gap ? penalty : 0.0;
     const double rim_v = limits_.boundary * place.length_v;
     const double rim_p = limits_.boundary * place.length_p;
@@ -199,8 +194,8 @@ splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector
   for (const Index p : added) {
     progress.next ();
     tree.nearestIf (
-        positions[p], Eigen::Vector3d::Zero (), KdTree::EVERYWHERE, limits.near,
-        [&mesh] (const Neighbor& neighbor, const Eigen::Vector3d& /*position*/) {
+        positions[p], Vector3d::Zero (), KdTree::EVERYWHERE, limits.near,
+        [&mesh] (const Neighbor& neighbor, const Vector3d& /*position*/) {
           return mesh.triangle_of[neighbor.point] != NONE;
         },
         found);

@@ -7,9 +7,6 @@
 #include "core/run_context.h"
 #include "mesh/triangle_mesh.h"
 
-#include <limits>
-#include <vector>
-
 namespace pcl::floater {
 /// Costs of a mesh that points join, each a length. Its bending is the sum over its edges of length
 /// times angle between the triangles: bounded for needles. The other costs were chosen by hand, on
@@ -82,15 +79,15 @@ private:
   // At a place, for the vertex v of the fan and the new point p.
   struct Place
   {
-    double length_v, length_p;          // of the spokes
-    double spoke_v, spoke_p;            // their costs
-    double rim;                         // change of the edge that follows
-    double first, last;                 // of a cut that begins or ends there
-    Eigen::Vector3d normal_v, normal_p; // of the triangle that follows
-    Eigen::Vector3d needle;             // normal of the triangle (v, place, p)
+    double length_v, length_p;   // of the spokes
+    double spoke_v, spoke_p;     // their costs
+    double rim;                  // change of the edge that follows
+    double first, last;          // of a cut that begins or ends there
+    Vector3d normal_v, normal_p; // of the triangle that follows
+    Vector3d needle;             // normal of the triangle (v, place, p)
   };
 
-  Eigen::Vector3d normalOf (Index t) const;
+  Vector3d normalOf (Index t) const;
   void setFan (Index v) { fan_.is_closed = mesh_.fan (v, fan_.triangles, fan_.ring); }
   Cut bestCut (Index v, Index p);
   void turnSpokes (const Cut& cut, Index p, MeshEdge spoke, std::size_t count);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/vertex_stars.h"
 
-#include <numeric>
-
 namespace pcl::floater {
 TriangleRanges::TriangleRanges (const std::vector<Triangle>& triangles, std::size_t points,
                                 const RunContext& run)

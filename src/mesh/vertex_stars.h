@@ -7,10 +7,6 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Triangles by their smallest points, which lie along a space-filling curve; stable. O(n).
 /// \param points number of points; corners are below

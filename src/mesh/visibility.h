@@ -8,9 +8,6 @@
 #include "mesh/self_intersections.h"
 #include "mesh/vertex_stars.h"
 
-#include <cmath>
-#include <vector>
-
 namespace pcl::floater {
 /// Triangles in a tree of boxes. About 32 bytes per triangle. O(n) to build, in parallel except for
 /// the sorting. Rays may be cast by several threads.
@@ -18,8 +15,8 @@ class TriangleRays
 {
 public:
   /// \param triangles must outlive this, as must the positions
-  TriangleRays (const std::vector<Triangle>& triangles,
-                const std::vector<Eigen::Vector3d>& positions, const RunContext& run)
+  TriangleRays (const std::vector<Triangle>& triangles, const Positions& positions,
+                const RunContext& run)
       : triangles_ (triangles), positions_ (positions),
         order_ (orderByPoints (triangles, positions.size ())),
         tree_ (
@@ -33,8 +30,7 @@ public:
   /// one of the triangles around, and none that it is parallel to.
   /// \param direction not zero, any length
   template <typename Visit>
-  void forHits (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                Visit&& visit) const
+  void forHits (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
   {
     tree_.forAlongRay (origin, direction, [&] (std::size_t i) {
       const double at = hit (order_[i], origin, direction);
@@ -46,24 +42,24 @@ private:
   // Parameter of the intersection along the ray; 0 if there is none. The ray hits if the volumes of
   // the tetrahedra of ray and edges have one sign. Both triangles of an edge compute exactly opposite
   // volumes, so no ray slips between them.
-  double hit (Index t, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const
+  double hit (Index t, const Vector3d& origin, const Vector3d& direction) const
   {
-    const Eigen::Vector3d a = positions_[triangles_[t][0]] - origin;
-    const Eigen::Vector3d b = positions_[triangles_[t][1]] - origin;
-    const Eigen::Vector3d c = positions_[triangles_[t][2]] - origin;
+    const Vector3d a = positions_[triangles_[t][0]] - origin;
+    const Vector3d b = positions_[triangles_[t][1]] - origin;
+    const Vector3d c = positions_[triangles_[t][2]] - origin;
     const double ab = direction.dot (a.cross (b));
     const double bc = direction.dot (b.cross (c));
     const double ca = direction.dot (c.cross (a));
     const bool is_front = ab >= 0.0 && bc >= 0.0 && ca >= 0.0;
     if (!is_front && !(ab <= 0.0 && bc <= 0.0 && ca <= 0.0))
       return 0.0;
-    const Eigen::Vector3d normal = areaVector (a, b, c);
+    const Vector3d normal = areaVector (a, b, c);
     const double slope = direction.dot (normal);
     return slope != 0.0 ? std::max (0.0, a.dot (normal) / slope) : 0.0;
   }
 
   const std::vector<Triangle>& triangles_;
-  const std::vector<Eigen::Vector3d>& positions_;
+  const Positions& positions_;
   std::vector<Index> order_; // the triangles, by their smallest points
   BoxTree tree_;
 };
@@ -72,14 +68,14 @@ private:
 struct SightLine
 {
   Index triangle;
-  Eigen::Vector3d middle;    ///< of the triangle
-  Eigen::Vector3d direction; ///< towards its front
+  Vector3d middle;    ///< of the triangle
+  Vector3d direction; ///< towards its front
 };
 
 /// A unit vector around the normal, distributed by the cosine law: a point of the unit disc, lifted
 /// to the half sphere (Malley).
-inline Eigen::Vector3d
-directionAround (const Eigen::Vector3d& normal, std::size_t i)
+inline Vector3d
+directionAround (const Vector3d& normal, std::size_t i)
 {
   // Powers of the inverse of the plastic number, the root of x^3 = x + 1.
   constexpr double FIRST = 0.7548776662466927, SECOND = 0.5698402909980532;
@@ -105,8 +101,8 @@ public:
 
   /// Appends the lines for this triangle: none, one, or several if it is large.
   /// \param normal of unit length
-  void add (Index triangle, double area, const Eigen::Vector3d& middle,
-            const Eigen::Vector3d& normal, std::vector<SightLine>& lines)
+  void add (Index triangle, double area, const Vector3d& middle, const Vector3d& normal,
+            std::vector<SightLine>& lines)
   {
     sum_ += area;
     for (; next_ < sum_; next_ += step_)

@@ -6,8 +6,6 @@
 #include "core/order_statistics.h"
 #include "mesh/piece_in_place.h"
 
-#include <algorithm>
-#include <array>
 #include <map>
 
 namespace pcl::floater {
@@ -131,8 +129,8 @@ private:
 
   const TriangleMesh& mesh_;
   std::vector<std::optional<NewZone>>& made_;
-  std::vector<Index> zone_of_;          // of each triangle, NONE if it has no free corner
-  std::vector<std::uint8_t> is_turned_; // of each triangle, and then of each zone
+  std::vector<Index> zone_of_; // of each triangle, NONE if it has no free corner
+  Flags is_turned_;            // of each triangle, and then of each zone
 };
 
 } // namespace
@@ -144,8 +142,8 @@ spliceZones (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made
 }
 
 PlaceOfMesh
-placeOf (Row free, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-         const CsrLists& neighbors, const DisturbedZones& zones)
+placeOf (Row free, const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+         const DisturbedZones& zones)
 {
   PlaceOfMesh at;
   Place& place = at.place;

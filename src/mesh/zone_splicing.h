@@ -6,9 +6,6 @@
 #include "mesh/disturbed_zones.h"
 #include "mesh/two_sides.h"
 
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// A patch of the frame of a zone, by one of its triangles.
 struct PatchSide
@@ -45,7 +42,7 @@ struct PlaceOfMesh
 /// \param neighbors of each point of the mesh, nearest first
 /// \param zones     all zones of the mesh: triangles at their free points are not in the frame
 PlaceOfMesh
-placeOf (Row free, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& positions,
-         const CsrLists& neighbors, const DisturbedZones& zones);
+placeOf (Row free, const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+         const DisturbedZones& zones);
 
 } // namespace pcl::floater

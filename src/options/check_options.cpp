@@ -4,13 +4,8 @@
 
 #include "options/option_rows.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <initializer_list>
-#include <iterator>
-#include <limits>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

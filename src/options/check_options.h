@@ -10,7 +10,6 @@
 #include <pcl/surface/floater/report.h>
 
 #include <string>
-#include <vector>
 
 namespace pcl::floater {
 /// The options of a run: as given, but with DiscOptions::as_published all extensions are turned

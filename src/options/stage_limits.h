@@ -17,8 +17,6 @@
 #include "points/outliers.h"
 #include "view/view_method.h"
 
-#include <array>
-
 namespace pcl::floater {
 struct Limits
 {

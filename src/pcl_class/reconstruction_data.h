@@ -5,8 +5,7 @@
 
 #include <pcl/surface/floater/reconstruction_state.h>
 
-#include <cstdint>
-#include <vector>
+#include "core/types.h"
 
 namespace pcl::floater {
 struct ReconstructionState::Data
@@ -19,9 +18,9 @@ struct ReconstructionState::Data
   double largest_stretch = TextureOptions ().largest_stretch;
   Report report;
   TextureCoordinates texture;
-  std::vector<int> parts;               // of each point; empty if there is no mesh
-  std::vector<std::int8_t> states;      // PointState of each point; empty if there is no mesh
-  std::vector<Eigen::Vector3f> normals; // of each point; empty if not asked for
+  std::vector<int> parts;          // of each point; empty if there is no mesh
+  std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
+  Normals normals;                 // of each point; empty if not asked for
 
   void forgetMesh ()
   {

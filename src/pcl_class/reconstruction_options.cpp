@@ -3,8 +3,6 @@
 // The setters and getters of options, and the getters of results.
 #include "pcl_class/reconstruction_data.h"
 
-#include <utility>
-
 namespace pcl::floater {
 #define PCL_FLOATER_GETTER(Name, Type, value)                                                      \
   Type ReconstructionState::get##Name () const                                                     \
@@ -74,8 +72,8 @@ PCL_FLOATER_GETTER (Report, const Report&, data_->report)
 PCL_FLOATER_GETTER (Statistics, const Statistics&, data_->report.statistics)
 PCL_FLOATER_GETTER (MeshCheck, const MeshCheck&, data_->report.check)
 PCL_FLOATER_GETTER (BoundaryLoop, pcl::Indices, toPcl (data_->report.loop))
-PCL_FLOATER_GETTER (Parameters, const std::vector<Eigen::Vector2d>&, data_->report.parameters)
-PCL_FLOATER_GETTER (Normals, const std::vector<Eigen::Vector3f>&, data_->normals)
+PCL_FLOATER_GETTER (Parameters, const std::vector<Vector2d>&, data_->report.parameters)
+PCL_FLOATER_GETTER (Normals, const Normals&, data_->normals)
 PCL_FLOATER_GETTER (TextureCoordinates, const TextureCoordinates&, data_->texture)
 PCL_FLOATER_GETTER (PartIDs, std::vector<int>, data_->parts)
 PCL_FLOATER_GETTER (PointStates, std::vector<int>, std::vector<int> (data_->states.begin (), data_->states.end ()))

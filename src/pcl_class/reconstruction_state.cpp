@@ -16,10 +16,7 @@
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/impl/floater_reconstruction.hpp>
 
-#include <algorithm>
-#include <limits>
 #include <new>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -39,11 +36,11 @@ cloudOf (const Input& input)
 
 // For each point of the whole cloud, by pcl::NormalEstimation: normal of the plane through it and its k
 // nearest; NaN for points that are not selected or not finite.
-std::vector<Eigen::Vector3f>
+Normals
 estimateNormals (const Input& input, int k)
 {
   const auto cloud = cloudOf (input);
-  std::vector<Eigen::Vector3f> normals (cloud->size (), Eigen::Vector3f::Constant (NAN_32));
+  Normals normals (cloud->size (), Vector3f::Constant (NAN_32));
   if (std::none_of (cloud->begin (), cloud->end (),
                     [] (const pcl::PointXYZ& point) { return pcl::isFinite (point); }))
     return normals;
@@ -259,10 +256,10 @@ ReconstructionState::triangulatePoints (Input&& input)
       input.normals = estimateNormals (input, options.neighbors.k);
   }
   const bool computes_normals = data_->compute_normals, computes_texture = data_->computes_texture;
-  std::vector<Eigen::Vector3d> positions; // of the whole cloud; those of the input are consumed
+  Positions positions; // of the whole cloud; those of the input are consumed
   if (computes_normals || computes_texture) {
     positions.assign (input.cloud_size,
-                      Eigen::Vector3d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+                      Vector3d::Constant (std::numeric_limits<double>::quiet_NaN ()));
     for (std::size_t i = 0; i < input.positions.size (); ++i)
       positions[input.cloud_index[i]] = input.positions[i];
   }

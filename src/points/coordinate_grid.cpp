@@ -5,11 +5,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 constexpr std::size_t SAMPLED = 1U << 17;  // points

@@ -6,8 +6,6 @@
 #include "core/run_context.h"
 #include "points/points.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Step to which coordinates along one axis seem to be rounded.
 struct CoordinateGrid

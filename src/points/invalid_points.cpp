@@ -4,13 +4,6 @@
 
 #include "core/order_statistics.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 
@@ -19,7 +12,7 @@ namespace {
 // \param fewest of them
 // \param most   the range within which most points are
 std::vector<std::pair<double, Index>>
-pixelsAt (const Positions& positions, const Eigen::Vector3d& place, double range, double fewest,
+pixelsAt (const Positions& positions, const Vector3d& place, double range, double fewest,
           double most, const InvalidPointLimits& limits)
 {
   std::vector<std::pair<double, Index>> points;
@@ -48,12 +41,12 @@ pixelsAt (const Positions& positions, const Eigen::Vector3d& place, double range
 }
 
 void
-findPixels (const Positions& positions, const Positions& sample, const Eigen::Vector3d& origin,
+findPixels (const Positions& positions, const Positions& sample, const Vector3d& origin,
             const InvalidPointLimits& limits, InvalidPoints& found)
 {
   const auto size = static_cast<double> (positions.size ());
   // The place that most points of the sample have, how many have it, and the next.
-  Eigen::Vector3d frequent = Eigen::Vector3d::Zero ();
+  Vector3d frequent = Vector3d::Zero ();
   std::size_t most_often = 0, second = 0;
   for (std::size_t begin = 0, end = 0; begin < sample.size (); begin = end) {
     while (end < sample.size () && sample[end] == sample[begin])
@@ -65,7 +58,7 @@ findPixels (const Positions& positions, const Positions& sample, const Eigen::Ve
       frequent = sample[begin];
     }
   }
-  for (const Eigen::Vector3d& place : {origin, frequent}) {
+  for (const Vector3d& place : {origin, frequent}) {
     const bool is_origin = place == origin;
     const std::size_t others = place == frequent ? second : most_often; // of the sample
     double fewest = static_cast<double> (limits.fewest);
@@ -75,7 +68,7 @@ findPixels (const Positions& positions, const Positions& sample, const Eigen::Ve
     if (!is_origin)
       fewest = std::max (fewest, limits.share * size);
     std::vector<double> ranges;
-    for (const Eigen::Vector3d& position : sample)
+    for (const Vector3d& position : sample)
       ranges.push_back ((position - place).lpNorm<Eigen::Infinity> ());
     const double most = quantile (ranges, 0.75); // three quarters of the points are within
     const auto pixels =
@@ -97,7 +90,7 @@ findCells (const Positions& positions, const Eigen::AlignedBox3d& box, double sh
   constexpr double ROUNDING = 1e-9; // relative, of the shift
   constexpr std::array<double, 11> VALUES{-FLOAT, -32768.0, -32767.0, -99999.0, -9999.0, -999.0,
                                           0.0,    9999.0,   99999.0,  32767.0,  FLOAT};
-  const auto isAt = [shift] (const Eigen::Vector3d& position, double value) {
+  const auto isAt = [shift] (const Vector3d& position, double value) {
     const double z = position.z () + shift;
     return std::abs (z - value) <= ROUNDING * std::max (std::abs (value), std::abs (shift));
   };
@@ -135,12 +128,12 @@ findCells (const Positions& positions, const Eigen::AlignedBox3d& box, double sh
 } // namespace
 
 InvalidPoints
-findInvalidPoints (const Positions& positions, const Eigen::Vector3d& shift,
+findInvalidPoints (const Positions& positions, const Vector3d& shift,
                    const InvalidPointLimits& limits)
 {
   InvalidPoints found;
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& position : positions)
+  for (const Vector3d& position : positions)
     if (position.allFinite ())
       box.extend (position);
   constexpr std::size_t LOOKED_AT = 2000;
@@ -154,7 +147,7 @@ findInvalidPoints (const Positions& positions, const Eigen::Vector3d& shift,
   });
   if (sample.empty () || positions.size () <= limits.fewest)
     return found;
-  findPixels (positions, sample, Eigen::Vector3d (-shift), limits, found);
+  findPixels (positions, sample, Vector3d (-shift), limits, found);
   if (found.pixels.empty ())
     findCells (positions, box, shift.z (), limits, found);
   return found;

@@ -5,10 +5,6 @@
 
 #include "core/types.h"
 
-#include <Eigen/Core>
-
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds of invalid points. Chosen by hand, far from what real surfaces have.
 struct InvalidPointLimits
@@ -26,11 +22,11 @@ struct InvalidPointLimits
 /// Rows of points that are no measurements.
 struct InvalidPoints
 {
-  std::vector<Index> pixels; ///< at one place, where a sensor had no return
-  std::vector<Index> cells;  ///< with one height, in a grid without data there
-  Eigen::Vector3d place = Eigen::Vector3d::Zero (); ///< of the pixels
-  double height = 0.0;                              ///< of the cells
-  double gap = 0.0;                                 ///< from it to the nearest other height
+  std::vector<Index> pixels;          ///< at one place, where a sensor had no return
+  std::vector<Index> cells;           ///< with one height, in a grid without data there
+  Vector3d place = Vector3d::Zero (); ///< of the pixels
+  double height = 0.0;                ///< of the cells
+  double gap = 0.0;                   ///< from it to the nearest other height
 };
 
 /// Finds
@@ -41,7 +37,7 @@ struct InvalidPoints
 /// Non-finite points are ignored. O(n); O(n log n) where the lowest or highest z is one.
 /// \param shift was subtracted from the positions
 InvalidPoints
-findInvalidPoints (const Positions& positions, const Eigen::Vector3d& shift,
+findInvalidPoints (const Positions& positions, const Vector3d& shift,
                    const InvalidPointLimits& limits = {});
 
 } // namespace pcl::floater

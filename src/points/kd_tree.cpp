@@ -4,10 +4,6 @@
 
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace pcl::floater {
 namespace {
 constexpr Index LARGEST_LEAF = 12; // points in a leaf, at most
@@ -130,7 +126,7 @@ KdTree::build (Index first, Index last, const RunContext& run, PointOrder order,
 }
 
 void
-KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const
+KdTree::nearest (const Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const
 {
   Nearest visit (result, std::min (k, items_.size ()));
   search (0, query, visit);
@@ -138,7 +134,7 @@ KdTree::nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighb
 }
 
 bool
-KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
+KdTree::collect (const Vector3d& query, double radius, std::size_t most,
                  std::vector<Index>& points) const
 {
   struct Collect
@@ -149,7 +145,7 @@ KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
 
     double reach () const { return points.size () <= most ? sqr_radius : -1.0; }
     bool skips (const Node&) const { return false; }
-    void add (const Neighbor& candidate, const Eigen::Vector3d& /*position*/)
+    void add (const Neighbor& candidate, const Vector3d& /*position*/)
     {
       if (candidate.sqr_distance <= sqr_radius)
         points.push_back (candidate.point);
@@ -162,7 +158,7 @@ KdTree::collect (const Eigen::Vector3d& query, double radius, std::size_t most,
 }
 
 std::size_t
-KdTree::count (const Eigen::Vector3d& query, double radius) const
+KdTree::count (const Vector3d& query, double radius) const
 {
   const double sqr_radius = radius * radius;
   std::size_t found = 0;
@@ -171,7 +167,7 @@ KdTree::count (const Eigen::Vector3d& query, double radius) const
     const Index node = waiting.back ();
     waiting.pop_back ();
     const Node& here = nodes_[node];
-    const Eigen::Vector3d farthest =
+    const Vector3d farthest =
         (query - here.box.min ()).cwiseAbs ().cwiseMax ((query - here.box.max ()).cwiseAbs ());
     if (farthest.squaredNorm () <= sqr_radius)
       found += here.last - here.first;
@@ -189,7 +185,7 @@ std::size_t
 SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t first)
 {
   radius_ = -1.0;
-  const Eigen::Vector3d& begin = positions_[points[first]];
+  const Vector3d& begin = positions_[points[first]];
   if (last_reach_ == KdTree::EVERYWHERE) // none found yet
     nearest (begin);
   if (!(last_reach_ > SHORTEST) || last_reach_ == KdTree::EVERYWHERE)
@@ -220,7 +216,7 @@ SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t firs
 }
 
 void
-SequentialSearch::nearest (const Eigen::Vector3d& query)
+SequentialSearch::nearest (const Vector3d& query)
 {
   // All neighbours of the last query are within this distance; so are as many points of the ball,
   // if it covers this distance. If not, a smaller ball may still contain enough.
@@ -235,7 +231,7 @@ SequentialSearch::nearest (const Eigen::Vector3d& query)
 
 // \return false if there are too few points within reach
 bool
-SequentialSearch::searchBall (const Eigen::Vector3d& query, double reach)
+SequentialSearch::searchBall (const Vector3d& query, double reach)
 {
   if (!(reach > SHORTEST))
     return false;

@@ -6,14 +6,6 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <Eigen/Geometry>
-
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <vector>
-
 namespace pcl::floater {
 /// A neighbour and its squared distance. Ordered by distance, then index.
 struct Neighbor
@@ -47,10 +39,10 @@ public:
 
   /// Is told the ball that each search covered: the result depends on all points of the cloud in it. In
   /// a tree of a block, this shows whether the block was large enough. Several threads may call it.
-  std::function<void (const Eigen::Vector3d& centre, double radius)> watch;
+  std::function<void (const Vector3d& centre, double radius)> watch;
 
   /// Tells the watch, if there is one; to be called after searches around a point of the cloud.
-  void looked (const Eigen::Vector3d& centre, double radius) const
+  void looked (const Vector3d& centre, double radius) const
   {
     if (watch)
       watch (centre, radius);
@@ -61,23 +53,23 @@ public:
 
   /// The k nearest points to `query`, nearest first; fewer if the tree has fewer. Overwrites the
   /// result. O(k + log n) on clouds of bounded density.
-  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
+  void nearest (const Vector3d& query, std::size_t k, std::vector<Neighbor>& result) const;
 
   /// All points within `radius` of `query` (that distance included), unordered.
   /// \return false if there are more than `most`; then some are missing
-  bool collect (const Eigen::Vector3d& query, double radius, std::size_t most,
+  bool collect (const Vector3d& query, double radius, std::size_t most,
                 std::vector<Index>& points) const;
 
   /// Number of points within `radius` of `query` (that distance included). Boxes inside of that ball
   /// count as a whole.
-  std::size_t count (const Eigen::Vector3d& query, double radius) const;
+  std::size_t count (const Vector3d& query, double radius) const;
 
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. Points behind the plane through `query` with the normal `ahead` may be skipped,
   /// and accept must reject them; a zero normal means no plane. Overwrites the result.
   template <typename Accept>
-  void nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
-                  std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const;
+  void nearestIf (const Vector3d& query, const Vector3d& ahead, double radius, std::size_t k,
+                  Accept&& accept, std::vector<Neighbor>& result) const;
 
 private:
   struct Node
@@ -87,18 +79,18 @@ private:
     Index last;              // one past
     Index right;             // the left child is the next node; NONE at a leaf
 
-    double sqrDistance (const Eigen::Vector3d& query) const
+    double sqrDistance (const Vector3d& query) const
     {
       return (box.min () - query).cwiseMax (query - box.max ()).cwiseMax (0.0).squaredNorm ();
     }
-    double sqrDistanceOfCentre (const Eigen::Vector3d& query) const
+    double sqrDistanceOfCentre (const Vector3d& query) const
     {
       return (0.5 * (box.min () + box.max ()) - query).squaredNorm ();
     }
   };
   struct Item
   {
-    Eigen::Vector3d position;
+    Vector3d position;
     Index point;
   };
   // Visitor of a search: the nearest points found so far, at most k within the reach.
@@ -114,7 +106,7 @@ private:
 
     double reach () const { return sqr_reach_; }
     bool skips (const Node&) const { return false; }
-    void add (const Neighbor& candidate, const Eigen::Vector3d& /*position*/)
+    void add (const Neighbor& candidate, const Vector3d& /*position*/)
     {
       if (candidate.sqr_distance > sqr_reach_)
         return;
@@ -139,7 +131,7 @@ private:
   };
 
   template <typename Visit>
-  void search (Index node, const Eigen::Vector3d& query, Visit& visit) const;
+  void search (Index node, const Vector3d& query, Visit& visit) const;
   void build (Index first, Index last, const RunContext& run, PointOrder order,
               std::vector<Node>& nodes);
 
@@ -151,7 +143,7 @@ private:
 // distance and smaller index.
 template <typename Visit>
 void
-KdTree::search (Index node, const Eigen::Vector3d& query, Visit& visit) const
+KdTree::search (Index node, const Vector3d& query, Visit& visit) const
 {
   const Node& here = nodes_[node];
   if (visit.skips (here))
@@ -176,23 +168,23 @@ KdTree::search (Index node, const Eigen::Vector3d& query, Visit& visit) const
 
 template <typename Accept>
 void
-KdTree::nearestIf (const Eigen::Vector3d& query, const Eigen::Vector3d& ahead, double radius,
-                   std::size_t k, Accept&& accept, std::vector<Neighbor>& result) const
+KdTree::nearestIf (const Vector3d& query, const Vector3d& ahead, double radius, std::size_t k,
+                   Accept&& accept, std::vector<Neighbor>& result) const
 {
   struct Accepted
   {
     Nearest nearest;
-    const Eigen::Vector3d &query, &ahead;
+    const Vector3d &query, &ahead;
     Accept& accept;
 
     double reach () const { return nearest.reach (); }
     bool skips (const Node& node) const
     {
-      const Eigen::Vector3d farthest =
+      const Vector3d farthest =
           (ahead.array () < 0.0).select (node.box.min (), node.box.max ()) - query;
       return ahead.dot (farthest) < 0.0;
     }
-    void add (const Neighbor& candidate, const Eigen::Vector3d& position)
+    void add (const Neighbor& candidate, const Vector3d& position)
     {
       if (candidate.sqr_distance <= reach () && accept (candidate, position))
         nearest.add (candidate, position);
@@ -231,19 +223,19 @@ public:
 
 private:
   std::size_t gatherBall (const std::vector<Index>& points, std::size_t first);
-  void nearest (const Eigen::Vector3d& query);
-  bool searchBall (const Eigen::Vector3d& query, double reach);
+  void nearest (const Vector3d& query);
+  bool searchBall (const Vector3d& query, double reach);
 
   const KdTree& tree_;
   const Positions& positions_;
   std::size_t k_;
   std::vector<Neighbor> found_;
-  Eigen::Vector3d last_ = Eigen::Vector3d::Zero (); // last query, and the distance to its last
-                                                    // neighbour
+  Vector3d last_ = Vector3d::Zero (); // last query, and the distance to its last
+                                      // neighbour
   double last_reach_ = KdTree::EVERYWHERE;
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero (); // of the ball
-  double radius_ = -1.0;                              // of the ball; negative: there is none
-  std::vector<Index> ball_;                           // points in the ball, and their coordinates
+  Vector3d centre_ = Vector3d::Zero (); // of the ball
+  double radius_ = -1.0;                // of the ball; negative: there is none
+  std::vector<Index> ball_;             // points in the ball, and their coordinates
   std::array<std::vector<double>, 3> places_;
   std::vector<double> sqr_distances_; // of these to the query
   std::vector<Neighbor> near_;        // points within reach, unordered

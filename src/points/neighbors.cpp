@@ -4,10 +4,6 @@
 
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
 namespace pcl::floater {
 namespace {
 // Lists of k neighbours, or of all others if there are fewer; not yet filled.
@@ -195,7 +191,7 @@ findNeighborsOf (const Rows& rows, const Points& points, const NeighborSettings&
     return nearestByTree (*used, positions, rows, settings.options.k, run);
   const auto search = [&] (Index p, double radius, std::size_t most, std::vector<Neighbor>& found) {
     const auto isOther = [p] (const Neighbor& other, const auto&) { return other.point != p; };
-    used->nearestIf (positions[p], Eigen::Vector3d::Zero (), radius, most, isOther, found);
+    used->nearestIf (positions[p], Vector3d::Zero (), radius, most, isOther, found);
   };
   return searchEach (rows, settings.options, search, run);
 }

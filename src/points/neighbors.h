@@ -12,10 +12,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <optional>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Points to work on, ascending: all, a range, or a list. The list must outlive this.
 class Rows

@@ -6,10 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 namespace pcl::floater {
 namespace {
 // Spacing around a point, by its row of neighbours; that of a cluster, by the points around it.
@@ -43,11 +39,11 @@ visitTooNear (const Positions& positions, Index p, const Row& row, double gap,
 
 // Points that an earlier one sets aside, ascending.
 std::vector<Index>
-pointsTooNear (const Positions& positions, const CsrLists& neighbors,
-               const std::vector<std::uint8_t>& is_stacked, const NetLimits& limits)
+pointsTooNear (const Positions& positions, const CsrLists& neighbors, const Flags& is_stacked,
+               const NetLimits& limits)
 {
   std::vector<Index> aside;
-  std::vector<std::uint8_t> is_aside (positions.size (), 0);
+  Flags is_aside (positions.size (), 0);
   for (Index p = 0; p < positions.size (); ++p)
     if (is_stacked[p] != 0)
       visitTooNear (positions, p, neighbors.row (p), limits.gap, limits,
@@ -63,12 +59,12 @@ pointsTooNear (const Positions& positions, const CsrLists& neighbors,
 
 // Flags of the points in whose surroundings points lie on one another; empty if there are none. 0.05
 // microseconds a point where there are none.
-std::vector<std::uint8_t>
+Flags
 findStackedPlaces (const Positions& positions, const CsrLists& neighbors, const NetLimits& limits,
                    const RunContext& run)
 {
   const std::size_t n = positions.size ();
-  std::vector<std::uint8_t> is_equal (n, 0), is_stacked_block (n / RANGE_LENGTH + 1, 0);
+  Flags is_equal (n, 0), is_stacked_block (n / RANGE_LENGTH + 1, 0);
   std::vector<std::vector<double>> cosines_of (n / RANGE_LENGTH + 1);
   const auto areStacked = [&limits] (std::vector<double> cosines, std::size_t points) {
     const double share = static_cast<double> (cosines.size ()) / static_cast<double> (points);
@@ -101,7 +97,7 @@ findStackedPlaces (const Positions& positions, const CsrLists& neighbors, const 
     }
     is_stacked_block[first / RANGE_LENGTH] = areStacked (cosines, last - first) ? 1 : 0;
   });
-  const auto isAny = [] (const std::vector<std::uint8_t>& flags) {
+  const auto isAny = [] (const Flags& flags) {
     return std::find (flags.begin (), flags.end (), 1) != flags.end ();
   };
   const bool is_any_block = isAny (is_stacked_block);
@@ -111,8 +107,8 @@ findStackedPlaces (const Positions& positions, const CsrLists& neighbors, const 
   for (const std::vector<double>& some : cosines_of)
     cosines.insert (cosines.end (), some.begin (), some.end ());
   if (areStacked (std::move (cosines), n))
-    return std::vector<std::uint8_t> (n, 1);
-  std::vector<std::uint8_t> is_stacked = std::move (is_equal);
+    return Flags (n, 1);
+  Flags is_stacked = std::move (is_equal);
   const auto isInBlock = [&] (Index p) { return is_stacked_block[p / RANGE_LENGTH] != 0; };
   if (is_any_block)
     parallelPoints (run, n, [&] (Index p) {
@@ -129,8 +125,7 @@ Stacks
 chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings,
            const NetLimits& limits, const RunContext& run, std::optional<KdTree>* tree)
 {
-  std::vector<std::uint8_t> is_stacked =
-      findStackedPlaces (points.positions, neighbors, limits, run);
+  Flags is_stacked = findStackedPlaces (points.positions, neighbors, limits, run);
   if (is_stacked.empty ())
     return {};
   Points net; // without scaling it again

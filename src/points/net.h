@@ -6,9 +6,6 @@
 #include "points/neighbors.h"
 #include "points/points.h"
 
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds of the net. Stacks are first and last returns of a laser on hard ground, overlapping
 /// strips, merged scans: points apart along the normal, by a few percent of the spacing.

@@ -8,12 +8,6 @@
 
 #include <Eigen/Cholesky>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 constexpr std::size_t FEWEST = 10; // points that a residual needs
@@ -37,7 +31,7 @@ struct PointSample
   KdTree tree;
 
   // The nearest points of the sample, as indices among all points.
-  void nearest (const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
+  void nearest (const Vector3d& query, std::size_t k, std::vector<Neighbor>& found) const
   {
     tree.nearest (query, k, found);
     for (Neighbor& neighbor : found)
@@ -60,13 +54,13 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Root mean square distance to the quadric over the plane of the points.
 double
-quadricResidual (const std::vector<Eigen::Vector3d>& offsets, const PrincipalAxes& axes)
+quadricResidual (const std::vector<Vector3d>& offsets, const PrincipalAxes& axes)
 {
   Matrix6d normal_matrix = Matrix6d::Zero ();
   Vector6d right_side = Vector6d::Zero ();
   double sqr_heights = 0.0;
-  for (const Eigen::Vector3d& offset : offsets) {
-    const Eigen::Vector3d q = axes.axes.transpose () * (offset - axes.centre) / axes.spread[2];
+  for (const Vector3d& offset : offsets) {
+    const Vector3d q = axes.axes.transpose () * (offset - axes.centre) / axes.spread[2];
     Vector6d terms;
     terms << 1.0, q[1], q[2], q[1] * q[1], q[1] * q[2], q[2] * q[2];
     normal_matrix.noalias () += terms * terms.transpose ();
@@ -94,7 +88,7 @@ struct NoiseMeter
   std::array<const PointSample*, SCALES> samples;
   const NoiseLimits& limits;
   std::vector<Neighbor> found{};
-  std::vector<Eigen::Vector3d> offsets{}, local{};
+  std::vector<Vector3d> offsets{}, local{};
   std::vector<double> heights{};
 
   Place measure (Index p, bool is_unevenness_needed)
@@ -160,14 +154,14 @@ private:
   PrincipalAxes axesOfOffsets () const
   {
     PlaneFit fit;
-    for (const Eigen::Vector3d& offset : offsets)
+    for (const Vector3d& offset : offsets)
       fit.add (offset);
     return fit.principalAxes ();
   }
 
   void gather (Index p, std::size_t scale)
   {
-    offsets.assign (1, Eigen::Vector3d::Zero ());
+    offsets.assign (1, Vector3d::Zero ());
     if (scale == 0) {
       for (const Index q : neighbors.first (p, LOOKED_AT))
         offsets.emplace_back (positions[q] - positions[p]);
@@ -186,7 +180,7 @@ private:
   {
     local.clear ();
     heights.clear ();
-    for (const Eigen::Vector3d& offset : offsets) {
+    for (const Vector3d& offset : offsets) {
       local.emplace_back (axes.axes.transpose () * (offset - axes.centre));
       heights.push_back (local.back ()[0]);
     }
@@ -205,8 +199,8 @@ private:
     // Terraces lie side by side: their centres are farther apart than their points spread, less the
     // error of a mean of few points.
     const double middle = 0.5 * (heights[below - 1] + heights[below]);
-    Eigen::Vector2d lower = Eigen::Vector2d::Zero (), upper = Eigen::Vector2d::Zero ();
-    for (const Eigen::Vector3d& point : local)
+    Vector2d lower = Vector2d::Zero (), upper = Vector2d::Zero ();
+    for (const Vector3d& point : local)
       (point[0] < middle ? lower : upper) += point.tail<2> ();
     const double apart =
         (lower / static_cast<double> (below) - upper / static_cast<double> (count - below)).norm ();
@@ -337,13 +331,13 @@ keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
                const std::vector<float>& after, const NoiseLimits& limits, Noise& noise)
 {
   const std::size_t n = noise.at_point.size ();
-  RegionPoints noisy{std::vector<std::uint8_t> (n), {}, std::vector<float> (n)};
+  RegionPoints noisy{Flags (n), {}, std::vector<float> (n)};
   for (std::size_t p = 0; p < n; ++p) {
     noisy.is_inside[p] = noise.at_point[p] > 0.0F ? 1 : 0;
     noisy.value[p] = after[p] - before[p];
   }
   noisy.is_counted = noisy.is_inside;
-  std::vector<std::uint8_t> is_explained (n);
+  Flags is_explained (n);
   takeRegions (neighbors, noisy, 1, limits.gain, is_explained);
   for (std::size_t p = 0; p < n; ++p) // less what it has to be
     noisy.value[p] -= static_cast<float> (1.0 - limits.unexplained) * (1.0F - before[p]);
@@ -389,7 +383,7 @@ projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const
     for (int pass = 0; pass < PASSES; ++pass) {
       PlaneFit fit;
       for (const Neighbor& neighbor : found) {
-        const Eigen::Vector3d offset = positions[neighbor.point] - positions[p];
+        const Vector3d offset = positions[neighbor.point] - positions[p];
         double weight = std::exp (-NARROWNESS * neighbor.sqr_distance / sqr_reach);
         if (pass > 0) {
           const double share = plane.height (offset) / (OUTSIDE * deviation);
@@ -401,7 +395,7 @@ projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const
         break;
       plane = fit.plane ();
     }
-    projected[p] = positions[p] - plane.normal * plane.height (Eigen::Vector3d::Zero ());
+    projected[p] = positions[p] - plane.normal * plane.height (Vector3d::Zero ());
   });
   return projected;
 }

@@ -10,9 +10,6 @@
 #include "points/neighbors.h"
 #include "points/points.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds of noise.
 ///
@@ -116,9 +113,9 @@ projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const
 /// Points of which those that hang together are judged together.
 struct RegionPoints
 {
-  std::vector<std::uint8_t> is_inside;  ///< of each point: whether it may be in a region
-  std::vector<std::uint8_t> is_counted; ///< whether it counts for its region
-  std::vector<float> value;             ///< of the points that count
+  Flags is_inside;          ///< of each point: whether it may be in a region
+  Flags is_counted;         ///< whether it counts for its region
+  std::vector<float> value; ///< of the points that count
 };
 
 /// Takes the regions with at least so many points that count, and at least this mean of their
@@ -127,7 +124,7 @@ struct RegionPoints
 /// \param taken     set to 1 at all points of such regions; otherwise left as it is
 inline void
 takeRegions (const CsrLists& neighbors, const RegionPoints& points, std::size_t least,
-             double least_mean, std::vector<std::uint8_t>& taken)
+             double least_mean, Flags& taken)
 {
   constexpr std::size_t NEAREST = 20;
   const std::size_t n = points.is_inside.size ();

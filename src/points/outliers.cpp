@@ -8,26 +8,19 @@
 #include "core/parallel.h"
 #include "points/kd_tree.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 
 // The median in each coordinate, of the finite points.
-Eigen::Vector3d
+Vector3d
 medianPoint (const Positions& positions)
 {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
+  Vector3d middle = Vector3d::Zero ();
   std::vector<double> values;
   values.reserve (positions.size ());
   for (int axis = 0; axis < 3; ++axis) {
     values.clear ();
-    for (const Eigen::Vector3d& p : positions)
+    for (const Vector3d& p : positions)
       if (p.allFinite ())
         values.push_back (p[axis]);
     if (!values.empty ())
@@ -40,14 +33,11 @@ medianPoint (const Positions& positions)
 // one is larger than all others.
 struct Bulk
 {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  Vector3d centre = Vector3d::Zero ();
   double radius = std::numeric_limits<double>::infinity (); // infinite: there is no wide gap
   std::size_t points = 0;                                   // of the cloud, finite ones
 
-  double distanceTo (const Eigen::Vector3d& p) const
-  {
-    return (p - centre).lpNorm<Eigen::Infinity> ();
-  }
+  double distanceTo (const Vector3d& p) const { return (p - centre).lpNorm<Eigen::Infinity> (); }
 };
 
 // Grows the radius over the points beyond it until there is a wide gap to the next. Starts with the
@@ -60,7 +50,7 @@ findBulk (const Positions& positions, double gap)
   bulk.centre = medianPoint (positions);
   std::vector<double> distances;
   distances.reserve (positions.size ());
-  for (const Eigen::Vector3d& p : positions) {
+  for (const Vector3d& p : positions) {
     if (!p.allFinite ())
       continue;
     ++bulk.points;
@@ -90,7 +80,7 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
               const RunContext& run, const GrossOutlierLimits& limits)
 {
   const auto isBefore = [&] (Index a, Index b) {
-    const Eigen::Vector3d &p = positions[a], &q = positions[b];
+    const Vector3d &p = positions[a], &q = positions[b];
     return std::lexicographical_compare (p.begin (), p.end (), q.begin (), q.end ());
   };
   std::sort (rows.begin (), rows.end (), isBefore);
@@ -101,7 +91,7 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
       distinct.emplace_back ((positions[rows[i]] - bulk.centre) / bulk.radius);
     number[i] = distinct.size () - 1;
   }
-  std::vector<std::uint8_t> is_isolated (distinct.size (), 0);
+  Flags is_isolated (distinct.size (), 0);
   const KdTree tree (distinct, run);
   parallelPoints<std::vector<Neighbor>> (run, distinct.size (), [&] (Index i, auto& found) {
     tree.nearest (distinct[i], limits.object, found); // includes the point itself
@@ -132,7 +122,7 @@ isOffPlane (const Positions& positions, Index p, const Row& row, double least_he
   for (int pass = 0; pass < 2; ++pass) {
     PlaneFit fit;
     for (const Index q : row) {
-      const Eigen::Vector3d offset = positions[q] - positions[p];
+      const Vector3d offset = positions[q] - positions[p];
       if (pass == 0 || std::abs (plane.height (offset)) <= limits.stray * spread)
         fit.add (offset);
     }
@@ -142,7 +132,7 @@ isOffPlane (const Positions& positions, Index p, const Row& row, double least_he
       scratch.push_back (std::abs (plane.height (positions[q] - positions[p])));
     spread = median (scratch);
   }
-  const double height = std::abs (plane.height (Eigen::Vector3d::Zero ()));
+  const double height = std::abs (plane.height (Vector3d::Zero ()));
   return height > least_height && spread < limits.flat * height;
 }
 
@@ -169,8 +159,7 @@ isApart (const Positions& positions, Index p, const Row& row, const std::vector<
 // Of each point that enough others count as close: the points apart that it counts as close. An
 // outlier may well be nearest to another outlier, but few points are nearest to the latter.
 CsrLists
-arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
-             const OutlierLimits& limits)
+arcsToApart (const CsrLists& neighbors, const Flags& apart, const OutlierLimits& limits)
 {
   std::vector<std::uint32_t> owners (apart.size (), 0);
   for (std::size_t q = 0; q < apart.size (); ++q)
@@ -187,7 +176,7 @@ arcsToApart (const CsrLists& neighbors, const std::vector<std::uint8_t>& apart,
 
 // Clears the flag of points that can be reached from the surface along arcs.
 void
-keepReached (const CsrLists& arcs, std::vector<std::uint8_t>& apart)
+keepReached (const CsrLists& arcs, Flags& apart)
 {
   std::vector<Index> reached;
   for (Index q = 0; q < apart.size (); ++q)
@@ -204,8 +193,7 @@ keepReached (const CsrLists& arcs, std::vector<std::uint8_t>& apart)
 
 // The points that lie apart in clusters of at most `largest_cluster`, ascending.
 std::vector<Index>
-smallClusters (const CsrLists& arcs, std::size_t largest_cluster,
-               const std::vector<std::uint8_t>& apart)
+smallClusters (const CsrLists& arcs, std::size_t largest_cluster, const Flags& apart)
 {
   DisjointSets clusters (apart.size ());
   for (Index q = 0; q < apart.size (); ++q)
@@ -264,7 +252,7 @@ findOutliers (const Positions& positions, const CsrLists& neighbors, const RunCo
       reach[p] = static_cast<float> (
           distanceBetween (positions, p, row[std::min (REACH_OF, row.size ()) - 1]));
   });
-  std::vector<std::uint8_t> apart (n, 0);
+  Flags apart (n, 0);
   parallelPoints<std::vector<double>> (run, n, [&] (Index p, std::vector<double>& scratch) {
     const Row row = neighbors.first (p, NEAREST_POINTS);
     apart[p] = isApart (positions, p, row, reach, limits, scratch) ? 1 : 0;

@@ -7,8 +7,6 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds of gross outliers. Distances are the largest coordinate difference from the median of
 /// all points. The bulk is what surrounds it: at least half of the points, up to the first wide

@@ -4,9 +4,6 @@
 
 #include "core/order_statistics.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 constexpr std::size_t BUCKET = 64;  // points; a bucket is about 8 spacings wide, its diagonal 12
@@ -113,7 +110,7 @@ KdTree
 BlockSearch::makeTree (const RunContext& run)
 {
   KdTree tree (positions_, run, PointOrder::ALONG_CURVE);
-  tree.watch = [this] (const Eigen::Vector3d& centre, double radius) { looked (centre, radius); };
+  tree.watch = [this] (const Vector3d& centre, double radius) { looked (centre, radius); };
   return tree;
 }
 
@@ -129,7 +126,7 @@ BlockSearch::widen ()
 }
 
 void
-BlockSearch::looked (const Eigen::Vector3d& centre, double radius)
+BlockSearch::looked (const Vector3d& centre, double radius)
 {
   if (radius * ENLARGED <= halo_)
     return;

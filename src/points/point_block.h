@@ -7,11 +7,7 @@
 #include "core/types.h"
 #include "points/kd_tree.h"
 
-#include <Eigen/Geometry>
-
-#include <functional>
 #include <mutex>
-#include <vector>
 
 namespace pcl::floater {
 /// Cuts a working set, which is stored elsewhere, into blocks of nearly equal size: consecutive
@@ -74,11 +70,11 @@ public:
 private:
   struct Ball
   {
-    Eigen::Vector3d centre;
+    Vector3d centre;
     double radius;
   };
 
-  void looked (const Eigen::Vector3d& centre, double radius);
+  void looked (const Vector3d& centre, double radius);
   void cut ();
 
   const BlockCutter& cutter_;

@@ -6,15 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 namespace {
 constexpr int HILBERT_BITS = 21; // of each coordinate
@@ -47,7 +38,7 @@ codeOf (const Eigen::Array3d& place)
 // A position in units of cells. All axes have the same cell size: the curve follows distance, not
 // the shape of the box.
 Eigen::Array3d
-inCells (const Eigen::Vector3d& position)
+inCells (const Vector3d& position)
 {
   constexpr double CELLS = static_cast<double> (1U << HILBERT_BITS) - 1.0;
   return CELLS * (position.array () + 0.5);
@@ -56,7 +47,7 @@ inCells (const Eigen::Vector3d& position)
 // The code of a curve within the cell of a position: beside a piece many times as large, a whole object
 // may lie in a few cells.
 std::uint64_t
-hilbertCodeInCell (const Eigen::Vector3d& position)
+hilbertCodeInCell (const Vector3d& position)
 {
   const Eigen::Array3d place = inCells (position);
   return codeOf (static_cast<double> (1U << HILBERT_BITS) * (place - place.floor ()));
@@ -69,11 +60,11 @@ constexpr std::size_t PART = std::size_t{1} << 22U;
 // Equal but for rounding, as where sines and cosines close a circle: in multiples of 2e-16, which is
 // the precision of a coordinate of 1. Near the origin, numbers differ by less.
 bool
-areEqual (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+areEqual (const Vector3d& a, const Vector3d& b)
 {
-  const auto rounded = [] (const Eigen::Vector3d& p) {
+  const auto rounded = [] (const Vector3d& p) {
     constexpr double UNIT = 1.5; // coordinates are below 1/2
-    return Eigen::Vector3d ((p.array () + UNIT) - UNIT);
+    return Vector3d ((p.array () + UNIT) - UNIT);
   };
   return a == b || rounded (a) == rounded (b);
 }
@@ -109,14 +100,14 @@ bool
 isLineSeenFromWithin (const Positions& positions)
 {
   constexpr double STRAIGHT = 1e-4; // sine of an angle; near points are rounded more
-  const Eigen::Vector3d& from = positions[positions.size () / 2];
-  Eigen::Vector3d farthest = Eigen::Vector3d::Zero ();
-  for (const Eigen::Vector3d& p : positions)
+  const Vector3d& from = positions[positions.size () / 2];
+  Vector3d farthest = Vector3d::Zero ();
+  for (const Vector3d& p : positions)
     if ((p - from).squaredNorm () > farthest.squaredNorm ())
       farthest = p - from;
-  const Eigen::Vector3d direction = farthest.stableNormalized ();
+  const Vector3d direction = farthest.stableNormalized ();
   std::size_t beside = 0;
-  for (const Eigen::Vector3d& p : positions)
+  for (const Vector3d& p : positions)
     beside += direction.cross (p - from).norm () > STRAIGHT * (p - from).norm () ? 1 : 0;
   return 4 * beside < positions.size ();
 }
@@ -134,7 +125,7 @@ void
 takeAlongCurve (const Positions& positions, const std::vector<Index>& cloud_index,
                 const RunContext& run, Points& points)
 {
-  const auto scaled = [&] (Index row) -> Eigen::Vector3d {
+  const auto scaled = [&] (Index row) -> Vector3d {
     return (positions[row] - points.centre) / points.scale;
   };
   std::vector<Key> keys;
@@ -147,7 +138,7 @@ takeAlongCurve (const Positions& positions, const std::vector<Index>& cloud_inde
   const auto isLess = [&] (const Key& one, const Key& other) {
     if (one.code != other.code)
       return one.code < other.code;
-    const Eigen::Vector3d a = scaled (one.row), b = scaled (other.row);
+    const Vector3d a = scaled (one.row), b = scaled (other.row);
     if (a == b)
       return cloud_index[one.row] < cloud_index[other.row];
     const std::uint64_t code_of_a = hilbertCodeInCell (a), code_of_b = hilbertCodeInCell (b);
@@ -188,7 +179,7 @@ removeStacked (StackedPoints& stacked, const std::vector<Index>& removed,
 } // namespace
 
 std::uint64_t
-hilbertCode (const Eigen::Vector3d& position)
+hilbertCode (const Vector3d& position)
 {
   return codeOf (inCells (position));
 }
@@ -210,8 +201,7 @@ makePoints (const Positions& positions, const std::vector<Index>& cloud_index,
 
   points.centre = 0.5 * box.min () + 0.5 * box.max ();
   // Both sides: the centre of a tiny box may be rounded to one of its ends.
-  const Eigen::Vector3d half_size =
-      (box.max () - points.centre).cwiseMax (points.centre - box.min ());
+  const Vector3d half_size = (box.max () - points.centre).cwiseMax (points.centre - box.min ());
   const double diagonal = 2.0 * half_size.stableNorm ();
   points.scale = diagonal > 0.0 ? diagonal : 1.0;
   takeAlongCurve (positions, cloud_index, run, points);
@@ -219,21 +209,21 @@ makePoints (const Positions& positions, const std::vector<Index>& cloud_index,
   return points;
 }
 
-std::vector<Eigen::Vector3f>
-normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points)
+Normals
+normalsOfPoints (const Normals& normals, const Points& points)
 {
-  std::vector<Eigen::Vector3f> of_points (normals.empty () ? 0 : points.size ());
+  Normals of_points (normals.empty () ? 0 : points.size ());
   for (std::size_t first = 0; first < normals.size (); first += PART)
     for (std::size_t p = 0; p < of_points.size (); ++p) {
       const Index cloud_index = points.cloud_index[p];
       if (cloud_index < first || cloud_index - first >= PART)
         continue;
       // In double precision, squares of floats neither overflow nor underflow.
-      const Eigen::Vector3d given = normals[cloud_index].cast<double> ();
+      const Vector3d given = normals[cloud_index].cast<double> ();
       const double length = given.norm ();
       const bool is_normal = std::isfinite (length) && length > 0.0;
-      of_points[p] = is_normal ? Eigen::Vector3f ((given / length).cast<float> ())
-                               : Eigen::Vector3f (Eigen::Vector3f::Zero ());
+      of_points[p] =
+          is_normal ? Vector3f ((given / length).cast<float> ()) : Vector3f (Vector3f::Zero ());
     }
   return of_points;
 }
@@ -248,9 +238,9 @@ checkPoints (const Points& points)
                                            " distinct finite points; at least " +
                                            std::to_string (FEWEST) + " are needed"};
   PlaneFit fit;
-  for (const Eigen::Vector3d& position : points.positions)
+  for (const Vector3d& position : points.positions)
     fit.add (position - points.positions.front ());
-  const Eigen::Vector3d spread = fit.principalAxes ().spread;
+  const Vector3d spread = fit.principalAxes ().spread;
   // Coordinates come in single precision: a line is straight only to 1e-7 of its length.
   if (spread[1] < 1e-6 * spread[2] && isLineSeenFromWithin (points.positions))
     return {RunStatus::DEGENERATE,
@@ -270,7 +260,7 @@ removePoints (Points& points, const std::vector<Index>& removed)
     eraseRows (*normals, removed);
   eraseRows (points.cloud_index, removed);
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& position : points.positions)
+  for (const Vector3d& position : points.positions)
     box.extend (position);
 
   // By a power of two, which is exact: distances compare as before.
@@ -281,10 +271,10 @@ removePoints (Points& points, const std::vector<Index>& removed)
     exponent = std::min (exponent, 0); // a box of diagonal 1 stays as it is
     if (exponent != 0)
       for (auto* positions : {&points.positions, &points.stacked.positions, &points.stacked.own})
-        for (Eigen::Vector3d& position : *positions)
-          position = Eigen::Vector3d (std::ldexp (position.x (), -exponent),
-                                      std::ldexp (position.y (), -exponent),
-                                      std::ldexp (position.z (), -exponent));
+        for (Vector3d& position : *positions)
+          position = Vector3d (std::ldexp (position.x (), -exponent),
+                               std::ldexp (position.y (), -exponent),
+                               std::ldexp (position.z (), -exponent));
     points.diagonal = std::ldexp (diagonal, -exponent);
     points.scale = std::ldexp (points.scale, exponent);
   }
@@ -302,7 +292,7 @@ setAside (Points& points, const std::vector<Index>& kept, const RunContext& run)
   stacked.cloud_index = valuesAt (points.cloud_index, aside);
   const double scale = points.scale;
   removePoints (points, aside);
-  for (Eigen::Vector3d& position : stacked.positions)
+  for (Vector3d& position : stacked.positions)
     position *= scale / points.scale; // a power of two
   stacked.of.resize (aside.size ());
   const KdTree tree (points.positions, run, PointOrder::ALONG_CURVE);
@@ -333,7 +323,7 @@ withStacked (const Points& points)
   all.positions.insert (all.positions.end (), stacked.positions.begin (), stacked.positions.end ());
   all.cloud_index.insert (all.cloud_index.end (), stacked.cloud_index.begin (),
                           stacked.cloud_index.end ());
-  for (std::vector<Eigen::Vector3f>* normals : {&all.normals, &all.facing_normals})
+  for (Normals* normals : {&all.normals, &all.facing_normals})
     if (!normals->empty ())
       for (const Index p : stacked.of)
         normals->push_back ((*normals)[p]);

@@ -8,11 +8,6 @@
 #include "core/types.h"
 #include "points/kd_tree.h"
 
-#include <array>
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 namespace pcl::floater {
 /// Points that lie on others, which stand for them until there is a mesh (see setAside).
 struct StackedPoints
@@ -27,14 +22,14 @@ struct StackedPoints
 /// are near in memory. The order depends only on the coordinates.
 struct Points
 {
-  Positions positions;                  ///< centred, scaled to a bounding box diagonal of 1
-  Positions projected;                  ///< projections of noisy points on local planes; empty if
-                                        ///< noise is weak
-  std::vector<Index> cloud_index;       ///< of each point; the smallest of equal points
-  std::vector<Eigen::Vector3f> normals; ///< given normals: unit length, arbitrary sign, zero
-                                        ///< where missing; empty if none are given
-  std::vector<Eigen::Vector3f> facing_normals;       ///< normals towards the front, as above
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero (); ///< cloud = centre + scale * position
+  Positions positions;                 ///< centred, scaled to a bounding box diagonal of 1
+  Positions projected;                 ///< projections of noisy points on local planes; empty if
+                                       ///< noise is weak
+  std::vector<Index> cloud_index;      ///< of each point; the smallest of equal points
+  Normals normals;                     ///< given normals: unit length, arbitrary sign, zero
+                                       ///< where missing; empty if none are given
+  Normals facing_normals;              ///< normals towards the front, as above
+  Vector3d centre = Vector3d::Zero (); ///< cloud = centre + scale * position
   double scale = 1.0;
   StackedPoints stacked; ///< if any: each position is the mean of a point and those it stands for
   double diagonal =
@@ -55,18 +50,18 @@ struct Points
   const Positions& ownPositions () const { return stacked.own.empty () ? positions : stacked.own; }
 
   /// A position in the frame of the cloud.
-  Eigen::Vector3d inCloud (Index point) const { return centre + scale * ownPositions ()[point]; }
+  Vector3d inCloud (Index point) const { return centre + scale * ownPositions ()[point]; }
 
   /// The position of a place in the frame of the cloud.
-  Eigen::Vector3d fromCloud (const std::array<double, 3>& place) const
+  Vector3d fromCloud (const std::array<double, 3>& place) const
   {
-    return (Eigen::Map<const Eigen::Vector3d> (place.data ()) - centre) / scale;
+    return (Eigen::Map<const Vector3d> (place.data ()) - centre) / scale;
   }
 };
 
 /// Where a Hilbert curve through the box from -1/2 to 1/2 comes to the cell of a position.
 std::uint64_t
-hilbertCode (const Eigen::Vector3d& position);
+hilbertCode (const Vector3d& position);
 
 /// Drops non-finite positions, centres, scales to a bounding box diagonal of 1, merges equal points
 /// (the smallest cloud index represents them), and sorts along a Hilbert curve, fine enough for
@@ -80,8 +75,8 @@ makePoints (const Positions& positions, const std::vector<Index>& cloud_index,
 
 /// Given normals of the points, from those of the whole cloud, if any: unit length, or zero where
 /// missing. O(n).
-std::vector<Eigen::Vector3f>
-normalsOfPoints (const std::vector<Eigen::Vector3f>& normals, const Points& points);
+Normals
+normalsOfPoints (const Normals& normals, const Points& points);
 
 /// TOO_FEW_POINTS for fewer than four points, DEGENERATE if all lie on one line. Small objects far
 /// apart pass: it suffices that, seen from one of the points, a quarter of the others lie beside

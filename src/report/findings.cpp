@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/findings.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -220,7 +217,7 @@ counted (std::size_t count, const char* one, const char* several)
 }
 
 std::string
-placeText (std::uint32_t index, const Eigen::Vector3d& at)
+placeText (std::uint32_t index, const Vector3d& at)
 {
   std::ostringstream text;
   text.precision (9); // distinguishes all numbers in single precision

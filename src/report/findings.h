@@ -17,7 +17,7 @@ counted (std::size_t count, const char* one, const char* several);
 
 /// Cloud index and position: "point 7 (1.5, 0, 2.25)".
 std::string
-placeText (Index cloud_index, const Eigen::Vector3d& at);
+placeText (Index cloud_index, const Vector3d& at);
 
 /// A number with three significant digits: "15.6", "2.44e+13". Whole numbers have all of theirs.
 std::string
@@ -32,7 +32,7 @@ addFinding (Report& report, FindingId id, const Points& points, std::initializer
 {
   Finding finding{id, {}, {static_cast<double> (numbers)...}, {}};
   for (const Index p : at) {
-    const Eigen::Vector3d position = points.inCloud (p);
+    const Vector3d position = points.inCloud (p);
     finding.places.push_back (
         {points.cloud_index[p], {position.x (), position.y (), position.z ()}});
   }

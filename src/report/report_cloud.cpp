@@ -5,22 +5,20 @@
 #include "core/order_statistics.h"
 #include "report/findings.h"
 
-#include <algorithm>
-
 namespace pcl::floater {
 namespace {
 // Share of coinciding points above which a warning is given. Used for the warning only.
 constexpr std::size_t MANY_COINCIDE = 100;
 
 // Viewpoint in the frame of the cloud, or the direction to a far sensor.
-Eigen::Vector3d
+Vector3d
 inCloud (const Points& points, const Viewpoint& viewpoint)
 {
   constexpr double ROUNDING = 1e-14; // relative to the scale: error of moving a position to the box
                                      // and back
-  const Eigen::Vector3d place =
-      viewpoint.is_far ? viewpoint.place
-                       : Eigen::Vector3d (points.centre + points.scale * viewpoint.place);
+  const Vector3d place = viewpoint.is_far
+                             ? viewpoint.place
+                             : Vector3d (points.centre + points.scale * viewpoint.place);
   return (place.array ().abs () < ROUNDING * points.scale).select (0.0, place);
 }
 
@@ -96,7 +94,7 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 {
   report.is_view = true;
   report.is_far_view = viewpoint.is_far;
-  Eigen::Map<Eigen::Vector3d> (report.viewpoint.data ()) = inCloud (points, viewpoint);
+  Eigen::Map<Vector3d> (report.viewpoint.data ()) = inCloud (points, viewpoint);
   report.statistics.holes_filled = surface.holes_filled;
   report.statistics.view_steps = surface.steps;
   report.statistics.view_gaps = surface.gaps;
@@ -105,7 +103,7 @@ reportView (const Points& points, const Viewpoint& viewpoint, const ViewSurface&
 void
 reportOtherViewpoint (const Points& points, const Viewpoint& other, Report& report)
 {
-  const Eigen::Vector3d place = inCloud (points, other);
+  const Vector3d place = inCloud (points, other);
   addFinding (report, other.is_far ? FindingId::OTHER_DIRECTION : FindingId::OTHER_VIEWPOINT,
               points, {}, place[0], place[1], place[2]);
 }

@@ -12,8 +12,6 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <vector>
-
 namespace pcl::floater {
 /// Counts, non-finite points and duplicates.
 void

@@ -6,10 +6,6 @@
 #include "report/findings.h"
 #include "report/verdict.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 // Thresholds for warnings. They do not change the mesh.
@@ -282,8 +278,7 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
   statistics.factorization_bytes = solution.peak_bytes;
   if (parameterization.uv.empty ())
     return;
-  const Eigen::Vector2d nowhere =
-      Eigen::Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
+  const Vector2d nowhere = Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
   const Eigen::Array2d mirror (1.0, disc.finish.facing.turned > 0 ? -1.0 : 1.0);
   report.parameters.assign (report.statistics.cloud_points, nowhere);
   for (Index p = 0; p < points.cloud_index.size (); ++p)

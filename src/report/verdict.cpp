@@ -5,11 +5,7 @@
 #include "core/geometry.h"
 #include "report/findings.h"
 
-#include <algorithm>
-#include <functional>
 #include <initializer_list>
-#include <numeric>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -172,7 +168,7 @@ judge (const Report& report, const VerdictLimits& limits)
 
 double
 largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                  const std::vector<Eigen::Vector3d>& positions)
+                  const Positions& positions)
 {
   std::vector<float> areas;
   areas.reserve (triangles.size ());

@@ -45,6 +45,6 @@ judge (const Report& report, const VerdictLimits& limits = {});
 /// there are fewer than 100 triangles, of which one may rightly have a large share. O(n).
 double
 largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                  const std::vector<Eigen::Vector3d>& positions);
+                  const Positions& positions);
 
 } // namespace pcl::floater

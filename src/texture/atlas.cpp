@@ -7,12 +7,7 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -65,7 +60,7 @@ joinRuns (std::vector<CellRun>& runs)
 // Least and largest x of a triangle between the heights low and high. Empty if it has no point
 // there.
 std::pair<double, double>
-extentBetween (const std::array<Eigen::Vector2d, 3>& corners, double low, double high)
+extentBetween (const std::array<Vector2d, 3>& corners, double low, double high)
 {
   double least = std::numeric_limits<double>::infinity (), largest = -least;
   const auto extend = [&] (double x) {
@@ -73,7 +68,7 @@ extentBetween (const std::array<Eigen::Vector2d, 3>& corners, double low, double
     largest = std::max (largest, x);
   };
   for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % 3];
+    const Vector2d &a = corners[i], &b = corners[(i + 1) % 3];
     if (a.y () >= low && a.y () <= high)
       extend (a.x ());
     for (const double y : {low, high})
@@ -222,17 +217,17 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
 // below the origin. O(triangles + cells).
 // \param uv per vertex, in cells, not negative
 CellMask
-makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
+makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)
 {
   // Cell (x, y) of the plane is cell (x + 1, y + 1) of the mask.
   CellMask mask;
-  Eigen::Vector2d size = Eigen::Vector2d::Zero ();
-  for (const Eigen::Vector2d& p : uv)
+  Vector2d size = Vector2d::Zero ();
+  for (const Vector2d& p : uv)
     size = size.cwiseMax (p);
   const auto cellOf = [] (double x) { return static_cast<Index> (std::max (x, 0.0)); };
   std::vector<std::vector<CellRun>> touched (cellOf (size.y ()) + std::size_t{1});
   for (const Triangle& t : triangles) {
-    const std::array<Eigen::Vector2d, 3> corners{uv[t[0]], uv[t[1]], uv[t[2]]};
+    const std::array<Vector2d, 3> corners{uv[t[0]], uv[t[1]], uv[t[2]]};
     const auto [low, high] = std::minmax ({corners[0].y (), corners[1].y (), corners[2].y ()});
     for (Index row = cellOf (low); row <= cellOf (high); ++row) {
       const auto [least, largest] =
@@ -301,19 +296,19 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
 
 // Direction of a side of the smallest enclosing rectangle, which is along an edge of the hull
 // (Freeman and Shapira 1975).
-Eigen::Vector2d
+Vector2d
 longSideOfBox (const ChartLayout& chart)
 {
-  const std::vector<Eigen::Vector2d> places = valuesAt (chart.uv, chart.loop);
-  const std::vector<Eigen::Vector2d> hull = valuesAt (places, convexHull (places));
-  Eigen::Vector2d best = Eigen::Vector2d::UnitX ();
+  const std::vector<Vector2d> places = valuesAt (chart.uv, chart.loop);
+  const std::vector<Vector2d> hull = valuesAt (places, convexHull (places));
+  Vector2d best = Vector2d::UnitX ();
   double least = std::numeric_limits<double>::infinity ();
   for (std::size_t i = 0; i < hull.size (); ++i) {
-    const Eigen::Vector2d along = (hull[(i + 1) % hull.size ()] - hull[i]).normalized ();
-    const Eigen::Vector2d across (-along.y (), along.x ());
+    const Vector2d along = (hull[(i + 1) % hull.size ()] - hull[i]).normalized ();
+    const Vector2d across (-along.y (), along.x ());
     Eigen::AlignedBox2d box;
-    for (const Eigen::Vector2d& p : hull)
-      box.extend (Eigen::Vector2d (along.dot (p), across.dot (p)));
+    for (const Vector2d& p : hull)
+      box.extend (Vector2d (along.dot (p), across.dot (p)));
     if (box.volume () < least) {
       least = box.volume ();
       best = box.sizes ().x () >= box.sizes ().y () ? along : across;
@@ -328,32 +323,32 @@ turnAndScale (ChartLayout& chart, double area, double longest)
 {
   constexpr double SHORTEST = 1.0 / 16.0; // rounding leaves triangles of that size as they are
   constexpr double LEAST_AREA = 1e-30;    // above zero, so that it can be scaled
-  const Eigen::Vector2d up = longSideOfBox (chart), right (up.y (), -up.x ());
+  const Vector2d up = longSideOfBox (chart), right (up.y (), -up.x ());
   double plane_area = 0.0;
   for (const auto& [a, b, c] : chart.corners)
     plane_area += 0.5 * cross (chart.uv[b] - chart.uv[a], chart.uv[c] - chart.uv[a]);
   const double scale = std::sqrt (std::max (area, LEAST_AREA) / plane_area);
   Eigen::AlignedBox2d box;
-  for (Eigen::Vector2d& p : chart.uv) {
-    p = scale * Eigen::Vector2d (right.dot (p), up.dot (p));
+  for (Vector2d& p : chart.uv) {
+    p = scale * Vector2d (right.dot (p), up.dot (p));
     box.extend (p);
   }
   const double length = box.sizes ().maxCoeff ();
   const double factor = std::clamp (length, SHORTEST, longest) / length;
-  for (Eigen::Vector2d& p : chart.uv)
+  for (Vector2d& p : chart.uv)
     p = factor * p - factor * box.min ();
 }
 
 // Rotates by quarter turns anti-clockwise, in a box that stays at the origin.
 void
-turnQuarters (std::vector<Eigen::Vector2d>& uv, int quarters)
+turnQuarters (std::vector<Vector2d>& uv, int quarters)
 {
-  Eigen::Vector2d size = Eigen::Vector2d::Zero ();
-  for (const Eigen::Vector2d& p : uv)
+  Vector2d size = Vector2d::Zero ();
+  for (const Vector2d& p : uv)
     size = size.cwiseMax (p);
   for (int q = 0; q < quarters; ++q) {
-    for (Eigen::Vector2d& p : uv)
-      p = Eigen::Vector2d (size.y () - p.y (), p.x ());
+    for (Vector2d& p : uv)
+      p = Vector2d (size.y () - p.y (), p.x ());
     std::swap (size.x (), size.y ());
   }
 }
@@ -380,7 +375,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   std::vector<TurnedMasks> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
-    std::vector<Eigen::Vector2d> uv = charts[c].uv;
+    std::vector<Vector2d> uv = charts[c].uv;
     for (CellMask& mask : masks[c]) {
       mask = makeCellMask (charts[c].corners, uv);
       turnQuarters (uv, 1);
@@ -391,8 +386,8 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     const auto& [x, y, quarters] = packed.first[c];
     turnQuarters (charts[c].uv, quarters);
-    const Eigen::Vector2d corner (static_cast<double> (x + 1), static_cast<double> (y + 1));
-    for (Eigen::Vector2d& p : charts[c].uv)
+    const Vector2d corner (static_cast<double> (x + 1), static_cast<double> (y + 1));
+    for (Vector2d& p : charts[c].uv)
       p = (p + corner) / side;
   });
   return 2.0 / side;

@@ -6,8 +6,6 @@
 #include "core/run_context.h"
 #include "texture/chart_layout.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Settings of the packing.
 struct AtlasLimits

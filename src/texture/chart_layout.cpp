@@ -10,11 +10,7 @@
 
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <new>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -37,12 +33,12 @@ meanValueWeights (const MeshPiece& chart)
   // weights.
   Weights weights{MeshRings (mesh).leaving, {}};
   const auto tangentAt = [&] (Index t, std::uint8_t corner) {
-    const auto toCorner = [&] (std::uint8_t other) -> Eigen::Vector3d {
+    const auto toCorner = [&] (std::uint8_t other) -> Vector3d {
       const Triangle& c = mesh.triangles[t];
       return (chart.positions[c[other]] - chart.positions[c[corner]]).normalized ();
     };
-    const Eigen::Vector3d a = toCorner (TriangleMesh::next (corner));
-    const Eigen::Vector3d b = toCorner (TriangleMesh::previous (corner));
+    const Vector3d a = toCorner (TriangleMesh::next (corner));
+    const Vector3d b = toCorner (TriangleMesh::previous (corner));
     return std::max (halfTangent (a.cross (b).norm (), a.dot (b)), SMALLEST_TANGENT);
   };
   weights.values.reserve (weights.neighbors.ids.size ());
@@ -63,7 +59,7 @@ meanValueWeights (const MeshPiece& chart)
 
 // Infinite if there is no layout, or a triangle is flipped.
 double
-meanStretch (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
+meanStretch (const MeshPiece& chart, const std::vector<Vector2d>& uv)
 {
   const std::vector<Triangle>& triangles = chart.mesh.triangles;
   return uv.empty () ? std::numeric_limits<double>::infinity ()
@@ -72,7 +68,7 @@ meanStretch (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
 
 // Divides weights by the stretch around the neighbour.
 void
-evenOut (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv, Weights& weights)
+evenOut (const MeshPiece& chart, const std::vector<Vector2d>& uv, Weights& weights)
 {
   std::vector<StretchSums> around (uv.size ());
   for (const Triangle& t : chart.mesh.triangles)
@@ -83,11 +79,11 @@ evenOut (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv, Weights
     weights.values[i] /= around[weights.neighbors.ids[i]].absolute ();
 }
 
-std::vector<Eigen::Vector2d>
-solveWeights (const MeshPiece& chart, const Weights& weights,
-              const std::vector<Eigen::Vector2d>& loop_uv, const RunContext& run)
+std::vector<Vector2d>
+solveWeights (const MeshPiece& chart, const Weights& weights, const std::vector<Vector2d>& loop_uv,
+              const RunContext& run)
 {
-  const std::vector<std::uint8_t> all (chart.positions.size (), 1);
+  const Flags all (chart.positions.size (), 1);
   const LinearSystem system =
       assembleSystem (weights.neighbors, weights.values, chart.loop, loop_uv, all);
   const Solution solution = solve (system, {}, run);
@@ -95,7 +91,7 @@ solveWeights (const MeshPiece& chart, const Weights& weights,
     throw std::bad_alloc ();
   if (solution.problem)
     return {};
-  std::vector<Eigen::Vector2d> uv (chart.positions.size ());
+  std::vector<Vector2d> uv (chart.positions.size ());
   for (std::size_t i = 0; i < chart.loop.size (); ++i)
     uv[chart.loop[i]] = loop_uv[i];
   for (std::size_t i = 0; i < system.unknowns (); ++i)
@@ -104,40 +100,40 @@ solveWeights (const MeshPiece& chart, const Weights& weights,
 }
 
 bool
-isLayout (const MeshPiece& chart, const std::vector<Eigen::Vector2d>& uv)
+isLayout (const MeshPiece& chart, const std::vector<Vector2d>& uv)
 {
   return isUpright (chart.mesh.triangles, uv) && isSimple (chart.loop, uv);
 }
 
 // Projects the chart, seen from its mean normal.
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 project (const MeshPiece& chart)
 {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero (), middle = Eigen::Vector3d::Zero ();
+  Vector3d normal = Vector3d::Zero (), middle = Vector3d::Zero ();
   for (const Triangle& t : chart.mesh.triangles)
     normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
-  for (const Eigen::Vector3d& p : chart.positions)
+  for (const Vector3d& p : chart.positions)
     middle += p / static_cast<double> (chart.positions.size ());
   const TangentFrame frame (normal.normalized ());
-  std::vector<Eigen::Vector2d> uv;
+  std::vector<Vector2d> uv;
   uv.reserve (chart.positions.size ());
-  for (const Eigen::Vector3d& p : chart.positions)
+  for (const Vector3d& p : chart.positions)
     uv.push_back (frame.project (p - middle));
   return uv;
 }
 
 // The first valid layout of: the projection; the projection with small defects repaired; a
 // convex-combination map on the circle. Otherwise empty.
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 beginLayout (const MeshPiece& chart, const DescentLimits& limits, const RunContext& run)
 {
-  std::vector<Eigen::Vector2d> uv = project (chart);
+  std::vector<Vector2d> uv = project (chart);
   if (isLayout (chart, uv) || (untangle (chart, run, uv) && isLayout (chart, uv)))
     return uv;
   if (chart.mesh.triangles.size () > limits.most_on_circle)
     return {};
   uv = layOutOnCircle (chart, run);
-  return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Eigen::Vector2d> ();
+  return !uv.empty () && isLayout (chart, uv) ? uv : std::vector<Vector2d> ();
 }
 
 // Lowers the distortion of a layout, unless that raises its stretch; sets its figures.
@@ -147,7 +143,7 @@ relax (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limi
 {
   layout.area = rest.area;
   layout.stretch = meanStretch (chart, layout.uv);
-  std::vector<Eigen::Vector2d> uv = layout.uv;
+  std::vector<Vector2d> uv = layout.uv;
   descendDistortion (chart, rest, limits, run, uv);
   if (!isLayout (chart, uv))
     return;
@@ -175,12 +171,12 @@ layOutTriangle (const MeshPiece& chart, ChartLayout& layout)
 
 } // namespace
 
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 layOutOnCircle (const MeshPiece& chart, const RunContext& run)
 {
-  const std::vector<Eigen::Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
+  const std::vector<Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
   Weights weights = meanValueWeights (chart);
-  std::vector<Eigen::Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
+  std::vector<Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
   double stretch = meanStretch (chart, uv);
   if (std::isinf (stretch)) {
     // Weights of long triangles are so different that rounding merges their ends.
@@ -195,7 +191,7 @@ layOutOnCircle (const MeshPiece& chart, const RunContext& run)
   bool goes_on = true;
   for (int step = 0; step < MOST_STEPS && goes_on; ++step) {
     evenOut (chart, uv, weights);
-    std::vector<Eigen::Vector2d> next = solveWeights (chart, weights, loop_uv, run);
+    std::vector<Vector2d> next = solveWeights (chart, weights, loop_uv, run);
     const double next_stretch = meanStretch (chart, next);
     if (!(next_stretch < stretch))
       break;
@@ -207,7 +203,7 @@ layOutOnCircle (const MeshPiece& chart, const RunContext& run)
 }
 
 bool
-untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& uv)
 {
   constexpr int ROUNDS_AT_MOST = 60; // remaining defects are wider than 30 triangles and no details
   // Moved are vertices of flipped triangles and some rings around them: one, plus one after this many
@@ -219,20 +215,20 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vect
   constexpr double EAR_HEIGHT = 0.2; // of a triangle with two edges on the boundary, over its base
   const std::vector<Triangle>& triangles = chart.mesh.triangles;
   const MeshRings rings (chart.mesh);
-  const auto targetOf = [&] (Index p) -> Eigen::Vector2d {
-    const Eigen::Vector2d mean = rings.meanAround (uv, p);
+  const auto targetOf = [&] (Index p) -> Vector2d {
+    const Vector2d mean = rings.meanAround (uv, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
       return mean;
     // A vertex of one triangle lies to the right of the line from the vertex before to the one
     // after it.
-    const Eigen::Vector2d way = uv[rings.after[p]] - uv[rings.before[p]];
-    return mean + EAR_HEIGHT * Eigen::Vector2d (way.y (), -way.x ());
+    const Vector2d way = uv[rings.after[p]] - uv[rings.before[p]];
+    return mean + EAR_HEIGHT * Vector2d (way.y (), -way.x ());
   };
   std::vector<Index> moved;
   for (int round = 0; round < ROUNDS_AT_MOST; ++round) {
     run.poll ();
     std::vector<Index> bad; // vertices of flipped triangles, then those around
-    std::vector<std::uint8_t> is_bad (uv.size (), 0);
+    Flags is_bad (uv.size (), 0);
     const auto add = [&] (const Triangle& t) {
       for (const Index p : t)
         if (is_bad[p] == 0) {

@@ -6,21 +6,19 @@
 #include "core/run_context.h"
 #include "texture/distortion_descent.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// A chart in the plane.
 struct ChartLayout
 {
-  std::vector<Index> triangles;    ///< of the mesh, ascending
-  std::vector<Index> points;       ///< of the mesh, ascending
-  std::vector<Triangle> corners;   ///< parallel to triangles: indices of `points`
-  std::vector<Index> loop;         ///< boundary in order as indices of `points`, the chart on the
-                                   ///< left
-  std::vector<Eigen::Vector2d> uv; ///< parallel to points, of any scale; empty if the chart is no
-                                   ///< disc, or rounding failed
-  double area = 0.0;               ///< of the chart in space, with minimum heights (LEAST_HEIGHT)
-  double stretch = 1.0;            ///< mean (see StretchSums)
+  std::vector<Index> triangles;  ///< of the mesh, ascending
+  std::vector<Index> points;     ///< of the mesh, ascending
+  std::vector<Triangle> corners; ///< parallel to triangles: indices of `points`
+  std::vector<Index> loop;       ///< boundary in order as indices of `points`, the chart on the
+                                 ///< left
+  std::vector<Vector2d> uv;      ///< parallel to points, of any scale; empty if the chart is no
+                                 ///< disc, or rounding failed
+  double area = 0.0;             ///< of the chart in space, with minimum heights (LEAST_HEIGHT)
+  double stretch = 1.0;          ///< mean (see StretchSums)
 };
 
 /// Lays the boundary on a circle by the lengths of its edges, and every inner vertex by mean value
@@ -30,7 +28,7 @@ struct ChartLayout
 /// system for each step, some 5 in total.
 /// \param chart a disc
 /// \return per vertex; empty if rounding or the solver failed
-std::vector<Eigen::Vector2d>
+std::vector<Vector2d>
 layOutOnCircle (const MeshPiece& chart, const RunContext& run);
 
 /// Moves the vertices of flipped triangles, and those around them, to the mean of their neighbours
@@ -38,7 +36,7 @@ layOutOnCircle (const MeshPiece& chart, const RunContext& run);
 /// \param[in,out] uv per vertex; valid only after success
 /// \return whether, in double precision, nothing is flipped
 bool
-untangle (const MeshPiece& chart, const RunContext& run, std::vector<Eigen::Vector2d>& uv);
+untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& uv);
 
 /// Lays a chart out without flipped triangles, and with a simple boundary: no point of the plane is
 /// covered twice. Starts with the projection along the mean normal, untangled if it has small

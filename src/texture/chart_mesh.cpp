@@ -8,11 +8,6 @@
 
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 MeshPiece
 cutOut (const std::vector<Triangle>& triangles, const std::vector<Index>& piece,
@@ -67,7 +62,7 @@ MeshRings::MeshRings (const TriangleMesh& mesh)
 }
 
 FlatTriangle
-layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_height)
+layFlat (const std::array<Vector3d, 3>& place, double least_height)
 {
   FlatTriangle flat{{}, -1.0};
   std::size_t apex = 0; // opposite to the longest edge
@@ -80,10 +75,10 @@ layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_height)
   }
   const std::size_t from = (apex + 1) % 3, to = (apex + 2) % 3;
   const double scale = flat.longest > 0.0 ? 1.0 / flat.longest : 0.0;
-  const Eigen::Vector3d along = scale * (place[to] - place[from]);
-  const Eigen::Vector3d up = scale * (place[apex] - place[from]);
-  flat.corners[from] = Eigen::Vector2d::Zero ();
-  flat.corners[to] = Eigen::Vector2d::UnitX ();
+  const Vector3d along = scale * (place[to] - place[from]);
+  const Vector3d up = scale * (place[apex] - place[from]);
+  flat.corners[from] = Vector2d::Zero ();
+  flat.corners[to] = Vector2d::UnitX ();
   flat.corners[apex] = {up.dot (along), std::max (along.cross (up).norm (), least_height)};
   return flat;
 }
@@ -118,11 +113,10 @@ makeRestShapes (const MeshPiece& chart)
 }
 
 void
-StretchSums::add (const std::array<Eigen::Vector3d, 3>& place,
-                  const std::array<Eigen::Vector2d, 3>& uv)
+StretchSums::add (const std::array<Vector3d, 3>& place, const std::array<Vector2d, 3>& uv)
 {
   const double area = 0.5 * areaVector (place[0], place[1], place[2]).norm ();
-  const Eigen::Vector2d e = uv[1] - uv[0], f = uv[2] - uv[0];
+  const Vector2d e = uv[1] - uv[0], f = uv[2] - uv[0];
   const double determinant = cross (e, f);
   plane_area_ += 0.5 * determinant;
   if (!(area > 0.0))
@@ -133,9 +127,9 @@ StretchSums::add (const std::array<Eigen::Vector3d, 3>& place,
     return;
   }
   // Columns of the Jacobian of the map from the plane.
-  const Eigen::Vector3d E = place[1] - place[0], F = place[2] - place[0];
-  const Eigen::Vector3d along_u = (E * f.y () - F * e.y ()) / determinant;
-  const Eigen::Vector3d along_v = (F * e.x () - E * f.x ()) / determinant;
+  const Vector3d E = place[1] - place[0], F = place[2] - place[0];
+  const Vector3d along_u = (E * f.y () - F * e.y ()) / determinant;
+  const Vector3d along_v = (F * e.x () - E * f.x ()) / determinant;
   const double a = along_u.squaredNorm (), b = along_u.dot (along_v), c = along_v.squaredNorm ();
   squares_ += area * 0.5 * (a + c);
   largest_ = std::max (largest_, std::sqrt (0.5 * (a + c + std::hypot (a - c, 2.0 * b))));
@@ -159,7 +153,7 @@ StretchSums::largest () const
 
 StretchSums
 stretchOf (const std::vector<Triangle>& triangles, const Positions& positions,
-           const std::vector<Triangle>& corners, const std::vector<Eigen::Vector2d>& uv)
+           const std::vector<Triangle>& corners, const std::vector<Vector2d>& uv)
 {
   StretchSums sums;
   for (std::size_t t = 0; t < triangles.size (); ++t) {
@@ -171,7 +165,7 @@ stretchOf (const std::vector<Triangle>& triangles, const Positions& positions,
 }
 
 std::vector<Index>
-flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
+flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)
 {
   std::vector<Index> flipped;
   for (Index t = 0; t < triangles.size (); ++t)

@@ -5,9 +5,6 @@
 
 #include "mesh/triangle_mesh.h"
 
-#include <array>
-#include <vector>
-
 namespace pcl::floater {
 /// Some triangles of a larger mesh, with their own vertex numbers.
 struct MeshPiece
@@ -54,13 +51,13 @@ struct MeshRings
 /// relative to that edge.
 struct FlatTriangle
 {
-  std::array<Eigen::Vector2d, 3> corners;
+  std::array<Vector2d, 3> corners;
   double longest; ///< of its edges in space
 };
 
 /// \param least_height of the triangle; thinner ones get it
 FlatTriangle
-layFlat (const std::array<Eigen::Vector3d, 3>& place, double least_height);
+layFlat (const std::array<Vector3d, 3>& place, double least_height);
 
 /// A triangle laid flat: map from the edges at its first corner to the unit vectors.
 struct RestShape
@@ -92,7 +89,7 @@ class StretchSums
 {
 public:
   /// Adds a triangle in space and in the plane; ignored if it has no area in space.
-  void add (const std::array<Eigen::Vector3d, 3>& place, const std::array<Eigen::Vector2d, 3>& uv);
+  void add (const std::array<Vector3d, 3>& place, const std::array<Vector2d, 3>& uv);
 
   double planeArea () const { return plane_area_; }
 
@@ -117,11 +114,11 @@ private:
 /// \param corners of its triangles as indices of uv, parallel to triangles
 StretchSums
 stretchOf (const std::vector<Triangle>& triangles, const Positions& positions,
-           const std::vector<Triangle>& corners, const std::vector<Eigen::Vector2d>& uv);
+           const std::vector<Triangle>& corners, const std::vector<Vector2d>& uv);
 
 /// The triangles that are not anti-clockwise in the plane, ascending. Exact.
 /// \param triangles corners as indices of uv
 std::vector<Index>
-flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
+flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv);
 
 } // namespace pcl::floater

@@ -4,10 +4,6 @@
 
 #include "core/geometry.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -27,8 +23,8 @@ using Histogram = Eigen::Array<float, DIRECTIONS, 1>; // of area over directions
 
 struct Chart
 {
-  Histogram facing = Histogram::Zero ();          // area by the direction that it faces
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero (); // of the area vectors
+  Histogram facing = Histogram::Zero (); // area by the direction that it faces
+  Vector3d sum = Vector3d::Zero ();      // of the area vectors
   double area = 0.0;            // of its facets, each in its own plane, without its roughness
   double seam = 0.0;            // length of the seams around it
   std::size_t triangles = 0;    // how many
@@ -37,7 +33,7 @@ struct Chart
 };
 
 double
-oneMinusCosine (const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+oneMinusCosine (const Vector3d& a, const Vector3d& b)
 {
   const double lengths = std::sqrt (a.squaredNorm () * b.squaredNorm ());
   return lengths > 0.0 ? 1.0 - a.dot (b) / lengths : 0.0;
@@ -47,8 +43,8 @@ class ChartMerger
 {
 public:
   ChartMerger (const TriangleMesh& mesh, const Positions& positions,
-               const std::vector<Eigen::Vector3d>& area_vectors, const MeshComponents& facets,
-               bool halves, const ChartLimits& limits)
+               const std::vector<Vector3d>& area_vectors, const MeshComponents& facets, bool halves,
+               const ChartLimits& limits)
       : mesh_ (mesh), facets_ (facets), limits_ (limits), halves_ (halves), charts_ (facets.count),
         part_of_ (facets.count), left_ (facets.count)
   {
@@ -129,7 +125,7 @@ private:
   {
     const Chart &one = charts_[a], &other = charts_[b];
     const double area = one.area + other.area;
-    const Eigen::Vector3d sum = one.sum + other.sum;
+    const Vector3d sum = one.sum + other.sum;
     const double deviation = area > 0.0 ? 1.0 - sum.norm () / area : 0.0;
     const Contact& contact = one.contacts.at (b);
     const double crease = contact.length > 0.0 ? contact.crease / contact.length : 0.0;
@@ -138,7 +134,7 @@ private:
   }
 
   // Share of the area that is turned away from the sum.
-  double shareAway (const Histogram& facing, const Eigen::Vector3d& sum, double area) const
+  double shareAway (const Histogram& facing, const Vector3d& sum, double area) const
   {
     const double level = limits_.away_cosine * sum.norm ();
     double away = 0.0;
@@ -266,7 +262,7 @@ private:
   const TriangleMesh& mesh_;
   const MeshComponents& facets_;
   const ChartLimits& limits_;
-  std::array<Eigen::Vector3d, DIRECTIONS> directions_;
+  std::array<Vector3d, DIRECTIONS> directions_;
   bool halves_; // until there are two, whatever the deviation
   std::vector<Chart> charts_;
   std::vector<Index> part_of_; // per facet: chart that it was joined to, transitively
@@ -280,7 +276,7 @@ private:
 // stay discs, and none vanishes.
 void
 straightenSeams (const TriangleMesh& mesh, const Positions& positions,
-                 const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
+                 const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
                  const RunContext& run, MeshComponents& charts)
 {
   // Weight of a seam along an edge.
@@ -350,7 +346,7 @@ MeshComponents
 findCharts (const TriangleMesh& mesh, const Positions& positions, bool halves,
             const ChartLimits& limits, const RunContext& run)
 {
-  const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
+  const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
   const MeshComponents facets = growFacets (mesh, positions, area_vectors, limits, run);
   MeshComponents charts =
       ChartMerger (mesh, positions, area_vectors, facets, halves, limits).merged (run);

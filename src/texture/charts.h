@@ -5,9 +5,6 @@
 
 #include "mesh/triangle_mesh.h"
 
-#include <cstddef>
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of a chart. They do not change the mesh.
 struct ChartLimits
@@ -74,7 +71,7 @@ areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunCont
 /// microseconds per triangle.
 MeshComponents
 growFacets (const TriangleMesh& mesh, const Positions& positions,
-            const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
+            const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run);
 
 /// Joins the facets of a mesh to charts, cheapest pair first (Garland, Willmott, Heckbert 2001:

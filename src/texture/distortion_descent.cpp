@@ -10,10 +10,6 @@
 #include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 // Not CHOLMOD's, which starts threads of OpenMP by itself. info () reports a matrix that is indefinite
@@ -72,13 +68,13 @@ struct Descent
   const DescentLimits& limits;
   Cholesky laplacian{};
 
-  void run (const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+  void run (const RunContext& run, std::vector<Vector2d>& uv)
   {
     const auto vertices = static_cast<Eigen::Index> (uv.size ());
     Plane x = Eigen::Map<const Plane> (uv.front ().data (), vertices, 2);
     scale (x);
     const auto accept = [&] {
-      std::vector<Eigen::Vector2d> next (uv.size ());
+      std::vector<Vector2d> next (uv.size ());
       Eigen::Map<Plane> (next.front ().data (), vertices, 2) = x;
       if (!isSimple (chart.loop, next))
         return false;
@@ -291,8 +287,8 @@ private:
       const Eigen::Matrix2d e = edgesOf (x, triangle), d = edgesOf (direction, triangle);
       // Area a t^2 + b t + c, positive at 0.
       const double a = d.determinant (), c = e.determinant ();
-      const double b = cross (Eigen::Vector2d (e.col (0)), Eigen::Vector2d (d.col (1))) +
-                       cross (Eigen::Vector2d (d.col (0)), Eigen::Vector2d (e.col (1)));
+      const double b = cross (Vector2d (e.col (0)), Vector2d (d.col (1))) +
+                       cross (Vector2d (d.col (0)), Vector2d (e.col (1)));
       const double discriminant = b * b - 4.0 * a * c;
       if (discriminant < 0.0)
         continue;
@@ -309,7 +305,7 @@ private:
 
 // Exact arithmetic has no NaN.
 bool
-areFinite (const std::vector<Eigen::Vector2d>& uv)
+areFinite (const std::vector<Vector2d>& uv)
 {
   return std::all_of (uv.begin (), uv.end (), [] (const auto& p) { return p.allFinite (); });
 }
@@ -318,20 +314,20 @@ areFinite (const std::vector<Eigen::Vector2d>& uv)
 
 void
 descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
-                   const RunContext& run, std::vector<Eigen::Vector2d>& uv)
+                   const RunContext& run, std::vector<Vector2d>& uv)
 {
   Descent{chart, rest, limits}.run (run, uv);
 }
 
 bool
-isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv)
+isSimple (const std::vector<Index>& loop, const std::vector<Vector2d>& uv)
 {
-  const std::vector<Eigen::Vector2d> polygon = valuesAt (uv, loop);
+  const std::vector<Vector2d> polygon = valuesAt (uv, loop);
   return areFinite (polygon) && isSimplePolygon (polygon);
 }
 
 bool
-isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv)
+isUpright (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)
 {
   return areFinite (uv) && flippedTriangles (triangles, uv).empty ();
 }

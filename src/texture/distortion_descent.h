@@ -6,8 +6,6 @@
 #include "core/run_context.h"
 #include "texture/chart_mesh.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of the descent.
 struct DescentLimits
@@ -39,14 +37,14 @@ struct DescentLimits
 /// \param[in,out] uv per vertex; no triangle flipped, the boundary simple. Scaled first
 void
 descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
-                   const RunContext& run, std::vector<Eigen::Vector2d>& uv);
+                   const RunContext& run, std::vector<Vector2d>& uv);
 
 /// Whether a closed polygon is simple. Exact; O(n log n).
 bool
-isSimple (const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& uv);
+isSimple (const std::vector<Index>& loop, const std::vector<Vector2d>& uv);
 
 /// Whether all triangles are anti-clockwise in the plane. Exact.
 bool
-isUpright (const std::vector<Triangle>& triangles, const std::vector<Eigen::Vector2d>& uv);
+isUpright (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv);
 
 } // namespace pcl::floater

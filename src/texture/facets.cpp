@@ -3,14 +3,11 @@
 #include "core/parallel.h"
 #include "texture/charts.h"
 
-#include <algorithm>
-#include <limits>
-
 namespace pcl::floater {
 Positions
 areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
-  std::vector<Eigen::Vector3d> vectors (mesh.triangles.size ());
+  std::vector<Vector3d> vectors (mesh.triangles.size ());
   parallelPoints (run, vectors.size (),
                   [&] (Index t) { vectors[t] = areaVectorOf (mesh.triangles[t], positions); });
   return vectors;
@@ -18,7 +15,7 @@ areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunCont
 
 MeshComponents
 growFacets (const TriangleMesh& mesh, const Positions& positions,
-            const std::vector<Eigen::Vector3d>& area_vectors, const ChartLimits& limits,
+            const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run)
 {
   // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
@@ -30,9 +27,9 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
       std::clamp<std::size_t> (mesh.triangles.size () / limits.facets, 1, limits.most_in_facet);
   std::vector<Index> facet_of_point (positions.size (), NONE); // the latest one of each point
   std::vector<Index> border; // triangles beside the facet; some may be taken already
-  Eigen::Vector3d sum, middle;
+  Vector3d sum, middle;
   double area = 0.0;
-  const auto middleOf = [&] (Index t) -> Eigen::Vector3d {
+  const auto middleOf = [&] (Index t) -> Vector3d {
     const Triangle& corners = mesh.triangles[t];
     return (positions[corners[0]] + positions[corners[1]] + positions[corners[2]]) / 3.0;
   };

@@ -6,11 +6,7 @@
 #include "texture/chart_mesh.h"
 #include "texture/charts.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 
 namespace pcl::floater {
 namespace {
@@ -47,7 +43,7 @@ struct Smoother
   {
     bends_at.resize (original.size ());
     Positions current = original;
-    std::vector<std::uint8_t> is_noisy (original.size (), 1);
+    Flags is_noisy (original.size (), 1);
     measureBends (current, is_noisy);
     is_noisy = findNoise ();
     if (std::find (is_noisy.begin (), is_noisy.end (), 1) == is_noisy.end ())
@@ -63,7 +59,7 @@ struct Smoother
           next[p] = current[p];
           return;
         }
-        const Eigen::Vector3d way = targetOf (current, p) - original[p];
+        const Vector3d way = targetOf (current, p) - original[p];
         const double length = way.norm ();
         next[p] = original[p] + way * (length > reach[p] ? reach[p] / length : 1.0);
         has_moved = true;
@@ -88,9 +84,9 @@ private:
 
   // Sums the bends of marked vertices: the angles between the normals at their edges, outwards where
   // the surface is convex.
-  void measureBends (const Positions& positions, const std::vector<std::uint8_t>& is_marked)
+  void measureBends (const Positions& positions, const Flags& is_marked)
   {
-    const std::vector<Eigen::Vector3d> area_vectors = areaVectors (mesh, positions, run);
+    const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
     visit ([&] (Index p) {
       if (is_marked[p] == 0)
         return;
@@ -100,9 +96,9 @@ private:
         const Index other = mesh.neighbors[edge.triangle][edge.side];
         if (other == NONE)
           continue;
-        const Eigen::Vector3d &here = area_vectors[edge.triangle], &beyond = area_vectors[other];
-        const Eigen::Vector3d along = positions[mesh.to (edge)] - positions[mesh.from (edge)];
-        const Eigen::Vector3d turn = here.cross (beyond);
+        const Vector3d &here = area_vectors[edge.triangle], &beyond = area_vectors[other];
+        const Vector3d along = positions[mesh.to (edge)] - positions[mesh.from (edge)];
+        const Vector3d turn = here.cross (beyond);
         (turn.dot (along) >= 0.0 ? bends.outwards : bends.inwards) +=
             std::atan2 (turn.norm (), here.dot (beyond));
         ++bends.edges;
@@ -119,16 +115,16 @@ private:
     return sum;
   }
 
-  std::vector<std::uint8_t> findNoise () const
+  Flags findNoise () const
   {
-    std::vector<std::uint8_t> bends_both_ways (original.size (), 0);
+    Flags bends_both_ways (original.size (), 0);
     visit ([&] (Index p) {
       const Bends& own = bends_at[p];
       if (own.outwards + own.inwards > limits.bend * static_cast<double> (own.edges))
         bends_both_ways[p] = bendsAround (p).bothWays () > limits.bend ? 1 : 0;
     });
     // Where creases of both kinds meet, only one vertex bends both ways.
-    std::vector<std::uint8_t> is_noisy (original.size (), 0);
+    Flags is_noisy (original.size (), 0);
     visit ([&] (Index p) {
       if (bends_both_ways[p] == 0)
         return;
@@ -168,9 +164,9 @@ private:
 
   // The mean of the neighbours; at the boundary, of those along it. A vertex of one triangle would
   // get between these, and moves with them instead.
-  Eigen::Vector3d targetOf (const Positions& positions, Index p) const
+  Vector3d targetOf (const Positions& positions, Index p) const
   {
-    const Eigen::Vector3d mean = rings.meanAround (positions, p);
+    const Vector3d mean = rings.meanAround (positions, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
       return mean;
     return original[p] + mean - rings.meanAround (original, p);

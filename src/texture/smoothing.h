@@ -5,8 +5,6 @@
 
 #include "mesh/triangle_mesh.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds of noise.
 struct SmoothingLimits

@@ -11,12 +11,6 @@
 
 #include <pcl/surface/floater/texture_coordinates.h>
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // The limits of all steps.
@@ -152,7 +146,7 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
     for (Layouts& list : found)
       std::move (list.begin (), list.end (), std::back_inserter (result));
   };
-  std::vector<std::uint8_t> is_done (mesh.triangles.size (), 0);
+  Flags is_done (mesh.triangles.size (), 0);
   if (options.whole_discs) {
     constexpr double ANY_STRETCH = std::numeric_limits<double>::infinity ();
     TextureLimits whole = limits;
@@ -278,7 +272,7 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
       largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
   const double unit = largest > 0.0 ? std::ldexp (1.0, std::ilogb (largest)) : 1.0;
   Positions places = positions;
-  for (Eigen::Vector3d& place : places)
+  for (Vector3d& place : places)
     place /= unit;
 
   const TextureLimits limits;
@@ -290,7 +284,7 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
   // sizes that differ by more than its digits, are taken apart.
   constexpr int ATTEMPTS = 4;
   std::vector<Index> flipped;
-  std::vector<Eigen::Vector2d> uv;
+  std::vector<Vector2d> uv;
   for (int round = 0; round == 0 || (round < ATTEMPTS && !flipped.empty ()); ++round) {
     std::vector<ChartLayout> kept;
     for (ChartLayout& chart : charts)

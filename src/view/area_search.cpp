@@ -6,11 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
 namespace {
 // Logarithm of the ratio of the upper to the lower quartile.
@@ -33,8 +28,8 @@ areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
   constexpr double LEAST_COSINE = 0.02;
   angles.clear ();
   for (const AreaSample& sample : samples) {
-    const Eigen::Vector3d ray =
-        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (sample.position - viewpoint.place);
+    const Vector3d ray =
+        viewpoint.is_far ? viewpoint.place : Vector3d (sample.position - viewpoint.place);
     const double sqr_distance = ray.squaredNorm ();
     const double cosine = std::abs (sample.normal.dot (ray)) / std::sqrt (sqr_distance);
     angles.push_back (sample.area * std::max (cosine, LEAST_COSINE) / sqr_distance);
@@ -49,7 +44,7 @@ middleBox (const std::vector<AreaSample>& samples)
   Eigen::AlignedBox3d box;
   std::vector<double> values (samples.size ());
   for (const double share : {0.25, 0.75}) {
-    Eigen::Vector3d corner;
+    Vector3d corner;
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t i = 0; i < samples.size (); ++i)
         values[i] = samples[i].position[axis];
@@ -69,7 +64,7 @@ addGrid (const Eigen::AlignedBox3d& box, std::size_t n, std::vector<RatedViewpoi
     const std::size_t column = i / n % n, layer = i / (n * n);
     const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
                                static_cast<double> (layer));
-    const Eigen::Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
+    const Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
     places.push_back ({0.0, {box.center () + offset.cwiseProduct (box.sizes ()), false}});
   }
 }
@@ -85,7 +80,7 @@ startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3
   addGrid (middle, limits.cells, places);
   // On spheres around the box, the last of infinite radius.
   for (std::size_t i = 0; i < limits.directions; ++i) {
-    const Eigen::Vector3d direction = spiralDirection (i, limits.directions);
+    const Vector3d direction = spiralDirection (i, limits.directions);
     for (const double distance : {1.5, 3.0, 6.0})
       places.push_back (
           {0.0, {box.center () + distance * box.sizes ().norm () * direction, false}});

@@ -8,12 +8,6 @@
 #include "core/run_context.h"
 #include "view/ray_evidence.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace pcl::floater {
 /// Patches around points that are spread evenly over their order, over their neighbours: also across
 /// rows that are far apart. Parallel rays to a patch are near each other for any direction.
@@ -27,7 +21,7 @@ findPointPatches (const Positions& positions, const RowOf& row_of, std::size_t c
 /// A point and the area around it.
 struct AreaSample
 {
-  Eigen::Vector3d position, normal;
+  Vector3d position, normal;
   double area; ///< of the patch around it, in any unit
 };
 
@@ -70,10 +64,10 @@ keepApart (const std::vector<RatedViewpoint>& candidates, double distance, std::
 /// the middle of the cloud, if that is above 1.
 template <typename Cost>
 RatedViewpoint
-patternSearch (const Viewpoint& start, double step, double smallest_step,
-               const Eigen::Vector3d& middle, std::size_t evaluations, const Cost& cost)
+patternSearch (const Viewpoint& start, double step, double smallest_step, const Vector3d& middle,
+               std::size_t evaluations, const Cost& cost)
 {
-  const auto moved = [&] (const RatedViewpoint& from, const Eigen::Vector3d& by) -> RatedViewpoint {
+  const auto moved = [&] (const RatedViewpoint& from, const Vector3d& by) -> RatedViewpoint {
     Viewpoint viewpoint = from.viewpoint;
     viewpoint.place += by;
     if (viewpoint.is_far)
@@ -93,7 +87,7 @@ patternSearch (const Viewpoint& start, double step, double smallest_step,
         if (evaluations == 0)
           return;
         const RatedViewpoint tried =
-            moved (at, sign * step * unit * (axes * Eigen::Vector3d::Unit (axis)));
+            moved (at, sign * step * unit * (axes * Vector3d::Unit (axis)));
         if (tried.cost < at.cost) {
           at = tried;
           break;

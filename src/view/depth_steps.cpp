@@ -6,10 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 // Extrapolation of the surface from the first point of an edge to the second.
@@ -37,7 +33,7 @@ public:
   {
   }
 
-  std::vector<std::uint8_t> find ()
+  Flags find ()
   {
     if (rays_.are_parallel && !rays_.depths.empty ()) {
       const auto [least, most] = std::minmax_element (rays_.depths.begin (), rays_.depths.end ());
@@ -45,11 +41,11 @@ public:
     }
     continueSurfaces ();
     findEdges ();
-    std::vector<std::uint8_t> is_step (view_.triangles.size (), 0);
+    Flags is_step (view_.triangles.size (), 0);
     const std::size_t bins = std::max<std::size_t> (1, edges_.size () / limits_.edges_per_bin);
     const auto binBegin = [&] (std::size_t b) { return b * edges_.size () / bins; };
     std::vector<double> noises (bins);
-    std::vector<std::uint8_t> is_rounded (bins);
+    Flags is_rounded (bins);
     parallelTasks (run_, bins, [&] (std::size_t b) {
       noises[b] = measureNoise (binBegin (b), binBegin (b + 1), is_rounded[b]);
     });
@@ -67,7 +63,7 @@ public:
       usual_noises[b] = std::min (usual_noises[b], limits_.nearer_noise * farther / depth);
       farther = std::min (farther, usual_noises[b] * depth);
     }
-    std::vector<std::uint8_t> is_step_edge (edges_.size (), 0);
+    Flags is_step_edge (edges_.size (), 0);
     parallelTasks (run_, bins, [&] (std::size_t b) {
       const double noise = usual_noises[b];
       // A bin between two steps of quantized depths does not show the size of a step.
@@ -96,7 +92,7 @@ private:
   void continueSurfaces ()
   {
     continuations_.resize (3 * view_.triangles.size ());
-    parallelPoints<std::vector<Index>, std::vector<Index>, std::vector<Eigen::Vector2d>> (
+    parallelPoints<std::vector<Index>, std::vector<Index>, std::vector<Vector2d>> (
         run_, view_.triangle_of.size (), [&] (Index p, auto&... scratch) {
           if (view_.triangle_of[p] != NONE)
             continueAround (p, scratch...);
@@ -105,14 +101,14 @@ private:
 
   // All edges that leave p, each with the triangle of p on its opposite side.
   void continueAround (Index p, std::vector<Index>& fan, std::vector<Index>& around,
-                       std::vector<Eigen::Vector2d>& places)
+                       std::vector<Vector2d>& places)
   {
     view_.fan (p, fan, around);
     places.clear ();
     for (const Index q : around)
       places.push_back (rays_.placeBeside (p, q));
     for (std::size_t e = 0; e < fan.size (); ++e) {
-      const Eigen::Vector2d back = -places[e];
+      const Vector2d back = -places[e];
       for (std::size_t t = 0; t < fan.size (); ++t) {
         const std::size_t next = (t + 1) % around.size ();
         const double area = cross (places[t], places[next]);
@@ -223,7 +219,7 @@ private:
   }
 
   // Position on a ray at an inverse depth, from the sensor. Non-positive ones are far away.
-  Eigen::Vector3d placeAt (Index ray, double level) const
+  Vector3d placeAt (Index ray, double level) const
   {
     if (rays_.are_parallel)
       return rays_.directions[ray] + level * rays_.parallel;
@@ -235,12 +231,12 @@ private:
   // the other end.
   struct EdgeVectors
   {
-    Eigen::Vector3d edge, straight;
+    Vector3d edge, straight;
   };
 
   EdgeVectors vectorsFrom (Index p, Index q, double told) const
   {
-    const Eigen::Vector3d from = placeAt (p, rays_.levels[p]);
+    const Vector3d from = placeAt (p, rays_.levels[p]);
     return {placeAt (q, rays_.levels[q]) - from, placeAt (q, told) - from};
   }
 
@@ -317,7 +313,7 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t>
+Flags
 findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
                 const RunContext& run)
 {

@@ -6,8 +6,6 @@
 #include "mesh/triangle_mesh.h"
 #include "view/rays.h"
 
-#include <vector>
-
 namespace pcl::floater {
 struct StepLimits
 {
@@ -66,7 +64,7 @@ struct StepLimits
 /// Where most deviations are rounding, depths are quantized, and the noise is one quantum. O(n log
 /// n).
 /// \return of each triangle: 1 if one of its edges is a step
-std::vector<std::uint8_t>
+Flags
 findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
                 const RunContext& run);
 

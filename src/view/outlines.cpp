@@ -5,12 +5,9 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
 namespace {
-using Place = Eigen::Vector2d;
+using Place = Vector2d;
 
 // Whether a line parts the first places from the others. It may go through two of them.
 bool

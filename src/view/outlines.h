@@ -5,8 +5,6 @@
 
 #include "view/ray_evidence.h"
 
-#include <vector>
-
 namespace pcl::floater {
 /// Limits of areOutlinesClear (), chosen by hand. Rows are those of generated sheets.
 struct OutlineLimits

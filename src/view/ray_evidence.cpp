@@ -7,15 +7,7 @@
 #include "core/parallel.h"
 #include "points/kd_tree.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <limits>
-#include <numeric>
-#include <utility>
 
 // Compiled a second time for processors with vectors of 8 floats, which are chosen at run time. The
 // results are the same. Sanitizers do not know such functions.
@@ -116,12 +108,12 @@ struct PatchRays
         y (x.size ()), z (x.size ()), nearest (x.size ()), second (x.size ()), across (x.size ()),
         at (x.size ())
   {
-    Eigen::Vector3d first = Eigen::Vector3d::Zero ();
+    Vector3d first = Vector3d::Zero ();
     for (std::size_t i = 0; i < patch.size (); ++i) {
-      const Eigen::Vector3d direction = rayTo (positions[patch[i]], viewpoint).direction;
+      const Vector3d direction = rayTo (positions[patch[i]], viewpoint).direction;
       if (i == 0)
         first = direction;
-      const Eigen::Vector3f offset = (direction - first).cast<float> ();
+      const Vector3f offset = (direction - first).cast<float> ();
       x[i] = offset.x ();
       y[i] = offset.y ();
       z[i] = offset.z ();
@@ -241,7 +233,7 @@ findRayPatches (const Positions& positions, const Viewpoint& viewpoint,
                 const EvidenceLimits& limits, const RunContext& run)
 {
   const std::size_t n = positions.size ();
-  std::vector<Eigen::Vector3d> directions (n);
+  std::vector<Vector3d> directions (n);
   parallelPoints (run, n,
                   [&] (Index p) { directions[p] = rayTo (positions[p], viewpoint).direction; });
   const KdTree tree (directions, run, PointOrder::ALONG_CURVE);
@@ -361,7 +353,7 @@ explainsDensity (const Positions& positions, const DensityEvidence& found,
   const double least = (hides_little ? limits.less_beside : 1.0) * spreadAt (viewpoint);
   for (int axis = 0; axis < 3; ++axis)
     for (const double aside : {-limits.beside * found.depth, limits.beside * found.depth})
-      if (spreadAt ({viewpoint.place + aside * Eigen::Vector3d::Unit (axis), false}) < least)
+      if (spreadAt ({viewpoint.place + aside * Vector3d::Unit (axis), false}) < least)
         return false;
   return true;
 }

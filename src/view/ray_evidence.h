@@ -8,9 +8,6 @@
 #include "points/points.h"
 #include "view/rays.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace pcl::floater {
 /// Points of a patch of rays, sorted by the angle to the first ray.
 using RayPatch = std::vector<Index>;

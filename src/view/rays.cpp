@@ -5,28 +5,22 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace pcl::floater {
-Eigen::Vector3d
+Vector3d
 emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
                 double& cosine)
 {
   constexpr std::size_t COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
-  std::vector<Eigen::Vector3d> directions;
+  std::vector<Vector3d> directions;
   for (std::size_t p = 0; p < positions.size (); p += step)
     directions.push_back (rayTo (positions[p], viewpoint).direction);
-  Eigen::Vector3d best = Eigen::Vector3d::UnitZ ();
+  Vector3d best = Vector3d::UnitZ ();
   cosine = std::numeric_limits<double>::infinity ();
   // In an order without neighbours in a row, of which each may be a little better than the one before.
   constexpr std::size_t STRIDE = 1237;
   for (std::size_t k = 0; k < tries; ++k) {
-    const Eigen::Vector3d tried = spiralDirection (k * STRIDE % tries, tries);
+    const Vector3d tried = spiralDirection (k * STRIDE % tries, tries);
     double nearest = -1.0;
     for (std::size_t i = 0; i < directions.size () && nearest < cosine; ++i)
       nearest = std::max (nearest, tried.dot (directions[i]));
@@ -39,17 +33,15 @@ emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::siz
 }
 
 Ray
-rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint)
+rayTo (const Vector3d& position, const Viewpoint& viewpoint)
 {
   if (viewpoint.is_far) {
     const double depth = position.dot (viewpoint.place);
     return {position - depth * viewpoint.place, depth};
   }
-  const Eigen::Vector3d offset = position - viewpoint.place;
+  const Vector3d offset = position - viewpoint.place;
   const double depth = offset.norm ();
-  return {depth > 0.0 ? Eigen::Vector3d (offset / depth)
-                      : Eigen::Vector3d (Eigen::Vector3d::Zero ()),
-          depth};
+  return {depth > 0.0 ? Vector3d (offset / depth) : Vector3d (Vector3d::Zero ()), depth};
 }
 
 Rays
@@ -68,10 +60,9 @@ makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunConte
   // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
   constexpr std::size_t TRIES = 2000; // finds cones of 5 degrees: the tear of the plane is small
   double cosine = 0.0;
-  const Eigen::Vector3d pole = viewpoint.is_far
-                                   ? Eigen::Vector3d (-viewpoint.place)
-                                   : emptyDirection (positions, viewpoint, TRIES, cosine);
-  const Eigen::Vector3d x = pole.unitOrthogonal (), y = pole.cross (x);
+  const Vector3d pole = viewpoint.is_far ? Vector3d (-viewpoint.place)
+                                         : emptyDirection (positions, viewpoint, TRIES, cosine);
+  const Vector3d x = pole.unitOrthogonal (), y = pole.cross (x);
   parallelPoints (run, n, [&] (Index p) {
     const auto [direction, depth] = rayTo (positions[p], viewpoint);
     rays.directions[p] = direction;
@@ -80,21 +71,20 @@ makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunConte
     const double factor = viewpoint.is_far ? 1.0
                           : depth > 0.0    ? 1.0 / (1.0 - direction.dot (pole))
                                            : std::numeric_limits<double>::quiet_NaN ();
-    rays.places[p] = factor * Eigen::Vector2d (direction.dot (x), direction.dot (y));
+    rays.places[p] = factor * Vector2d (direction.dot (x), direction.dot (y));
   });
   return rays;
 }
 
-Eigen::Vector2d
+Vector2d
 Rays::placeBeside (Index p, Index q) const
 {
   if (are_parallel)
     return places[q] - places[p];
-  const Eigen::Vector3d& across = directions[p];
-  const Eigen::Vector3d x = across.unitOrthogonal ();
-  const Eigen::Vector3d y = x.cross (across); // towards the sensor, x to y is anti-clockwise
-  return Eigen::Vector2d (x.dot (directions[q]), y.dot (directions[q])) /
-         across.dot (directions[q]);
+  const Vector3d& across = directions[p];
+  const Vector3d x = across.unitOrthogonal ();
+  const Vector3d y = x.cross (across); // towards the sensor, x to y is anti-clockwise
+  return Vector2d (x.dot (directions[q]), y.dot (directions[q])) / across.dot (directions[q]);
 }
 
 } // namespace pcl::floater

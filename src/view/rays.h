@@ -6,23 +6,19 @@
 #include "core/run_context.h"
 #include "core/types.h"
 
-#include <Eigen/Core>
-
-#include <vector>
-
 namespace pcl::floater {
 /// Viewpoint of a cloud.
 struct Viewpoint
 {
   /// Position of the sensor. If it is far away: unit vector along the parallel rays.
-  Eigen::Vector3d place = Eigen::Vector3d::Zero ();
+  Vector3d place = Vector3d::Zero ();
   bool is_far = false;
   bool is_only_told = false; ///< by the file or outlines; the rays do not tell
 };
 
 /// The direction of rays from far beyond a place.
 inline Viewpoint
-farFrom (const Viewpoint& near, const Eigen::Vector3d& middle)
+farFrom (const Viewpoint& near, const Vector3d& middle)
 {
   return {(middle - near.place).normalized (), true};
 }
@@ -30,28 +26,28 @@ farFrom (const Viewpoint& near, const Eigen::Vector3d& middle)
 /// The ray from a viewpoint to a point.
 struct Ray
 {
-  Eigen::Vector3d direction; ///< unit vector; for parallel rays, the projection of the point on the
-                             ///< plane through the origin perpendicular to the rays. Distances
-                             ///< between directions approximate angles, or are distances. Zero if
-                             ///< the point is the viewpoint
-  double depth;              ///< along the ray
+  Vector3d direction; ///< unit vector; for parallel rays, the projection of the point on the
+                      ///< plane through the origin perpendicular to the rays. Distances
+                      ///< between directions approximate angles, or are distances. Zero if
+                      ///< the point is the viewpoint
+  double depth;       ///< along the ray
 };
 
 Ray
-rayTo (const Eigen::Vector3d& position, const Viewpoint& viewpoint);
+rayTo (const Vector3d& position, const Viewpoint& viewpoint);
 
 /// A direction in the widest of the cones without rays, of those around evenly spread directions.
 /// \param positions some 2000 of them are looked at
 /// \param[out] cosine of the angle to the nearest ray
-Eigen::Vector3d
+Vector3d
 emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
                 double& cosine);
 
 /// The rays to all points.
 struct Rays
 {
-  std::vector<Eigen::Vector3d> directions; ///< see Ray
-  std::vector<double> depths;              ///< see Ray
+  std::vector<Vector3d> directions; ///< see Ray
+  std::vector<double> depths;       ///< see Ray
   std::vector<double> levels; ///< inverse depths; for parallel rays, depths. In a plane in space,
                               ///< they are affine functions of the position where the ray meets any
                               ///< plane across the rays
@@ -59,15 +55,15 @@ struct Rays
   /// Projected rays in the plane: stereographic projection maps circles to circles, so their
   /// Delaunay triangulation is that of the rays. The pole is a direction in the largest cone
   /// without rays. Anti-clockwise triangles face the sensor. NaN for a point that is the viewpoint.
-  std::vector<Eigen::Vector2d> places;
+  std::vector<Vector2d> places;
   bool are_parallel = false;
-  Eigen::Vector3d parallel = Eigen::Vector3d::Zero (); ///< along parallel rays, unit length
+  Vector3d parallel = Vector3d::Zero (); ///< along parallel rays, unit length
 
   /// Angle between two rays, or distance between parallel ones.
   double distance (Index p, Index q) const { return (directions[p] - directions[q]).norm (); }
 
   /// Where the ray of q meets a plane across the ray of p, from that point of p.
-  Eigen::Vector2d placeBeside (Index p, Index q) const;
+  Vector2d placeBeside (Index p, Index q) const;
 };
 
 /// O(n).

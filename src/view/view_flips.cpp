@@ -6,17 +6,6 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <iterator>
-#include <limits>
-#include <numeric>
-#include <optional>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 // A smaller change of cost may be rounding.
@@ -43,7 +32,7 @@ public:
   {
     std::vector<Index> tested (mesh_.triangles.size ()); // triangles whose edges are tested
     std::iota (tested.begin (), tested.end (), Index{0});
-    std::vector<std::uint8_t> is_tested (tested.size (), 1);
+    Flags is_tested (tested.size (), 1);
     std::size_t flips = 0;
     while (!tested.empty ()) {
       RangeLists<Flip> ranges (tested.size ());
@@ -77,12 +66,12 @@ public:
   }
 
 private:
-  Eigen::Vector3d towardsSensor (Index p) const
+  Vector3d towardsSensor (Index p) const
   {
-    return rays_.are_parallel ? -rays_.parallel : Eigen::Vector3d (-rays_.directions[p]);
+    return rays_.are_parallel ? -rays_.parallel : Vector3d (-rays_.directions[p]);
   }
 
-  Eigen::Vector3d normalOf (const Triangle& t) const
+  Vector3d normalOf (const Triangle& t) const
   {
     return areaVector (positions_[t[0]], positions_[t[1]], positions_[t[2]]).normalized ();
   }
@@ -125,8 +114,8 @@ private:
   std::optional<double> angle (Index p, Index from, Index to) const
   {
     constexpr double SLIVER = 1e-3;
-    const Eigen::Vector3d u = rays_.directions[from] - rays_.directions[p];
-    const Eigen::Vector3d v = rays_.directions[to] - rays_.directions[p];
+    const Vector3d u = rays_.directions[from] - rays_.directions[p];
+    const Vector3d v = rays_.directions[to] - rays_.directions[p];
     const double sine = u.cross (v).dot (towardsSensor (p)) / (u.norm () * v.norm ());
     if (!(sine > SLIVER))
       return {};
@@ -141,12 +130,12 @@ private:
     return at_a && at_b && *at_a + *at_b <= largest_angles_;
   }
 
-  double costOf (const Eigen::Vector3d& normal, const Eigen::Vector3d& other) const
+  double costOf (const Vector3d& normal, const Vector3d& other) const
   {
     return 1.0 - normal.dot (other) + (isFold (normal, other) ? limits_.fold_cost : 0.0);
   }
 
-  double costAcross (const Eigen::Vector3d& normal, Index other) const
+  double costAcross (const Vector3d& normal, Index other) const
   {
     return other == NONE ? 0.0 : costOf (normal, normals_[other]);
   }
@@ -163,8 +152,8 @@ private:
     const Index ca = across (e, TriangleMesh::previous (e.side));
     const Index ad = across (m, TriangleMesh::next (m.side));
     const Index db = across (m, TriangleMesh::previous (m.side));
-    const Eigen::Vector3d &at_c = normals_[e.triangle], &at_d = normals_[m.triangle];
-    const Eigen::Vector3d at_a = normalOf ({c, a, d}), at_b = normalOf ({d, b, c});
+    const Vector3d &at_c = normals_[e.triangle], &at_d = normals_[m.triangle];
+    const Vector3d at_a = normalOf ({c, a, d}), at_b = normalOf ({d, b, c});
     const double before = costOf (at_c, at_d) + costAcross (at_c, ca) + costAcross (at_c, bc) +
                           costAcross (at_d, ad) + costAcross (at_d, db);
     const double after = costOf (at_a, at_b) + costAcross (at_a, ca) + costAcross (at_a, ad) +
@@ -178,13 +167,13 @@ private:
   const ViewFlipLimits& limits_;
   RunContext run_;
   double largest_angles_;
-  std::vector<Eigen::Vector3d> normals_; // of the triangles, unit length
-  std::vector<std::uint8_t> is_changed_; // of each triangle: by a flip of this round
+  std::vector<Vector3d> normals_; // of the triangles, unit length
+  Flags is_changed_;              // of each triangle: by a flip of this round
 };
 
 } // namespace
 
-std::vector<std::uint8_t>
+Flags
 findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
           const RunContext& run)
 {
@@ -192,9 +181,9 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
   std::vector<float> radii (view.triangles.size ());
   parallelPoints (run, radii.size (), [&] (Index t) {
     const auto& [a, b, c] = view.triangles[t];
-    const Eigen::Vector3d u = rays.directions[b] - rays.directions[a];
-    const Eigen::Vector3d v = rays.directions[c] - rays.directions[a];
-    const double radius = circumradius (Eigen::Vector3d::Zero (), u, v);
+    const Vector3d u = rays.directions[b] - rays.directions[a];
+    const Vector3d v = rays.directions[c] - rays.directions[a];
+    const double radius = circumradius (Vector3d::Zero (), u, v);
     radii[t] =
         static_cast<float> (radius >= 0.0 ? radius : std::numeric_limits<double>::infinity ());
   });
@@ -223,7 +212,7 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
         values.push_back (around[q]);
     typical[p] = median (values);
   });
-  std::vector<std::uint8_t> is_gap (radii.size (), 0);
+  Flags is_gap (radii.size (), 0);
   for (std::size_t t = 0; t < radii.size (); ++t) {
     const auto& [a, b, c] = view.triangles[t];
     const double least = std::min ({typical[a], typical[b], typical[c]});

@@ -6,8 +6,6 @@
 #include "mesh/triangle_mesh.h"
 #include "view/rays.h"
 
-#include <vector>
-
 namespace pcl::floater {
 struct GapLimits
 {
@@ -19,7 +17,7 @@ struct GapLimits
 
 /// Marks the triangles of the view that lie in a gap. O(n).
 /// \return of each triangle: 1 if it does
-std::vector<std::uint8_t>
+Flags
 findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
           const RunContext& run);
 

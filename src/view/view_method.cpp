@@ -9,10 +9,6 @@
 #include "mesh/trimming.h"
 #include "view/outlines.h"
 
-#include <algorithm>
-#include <array>
-#include <functional>
-
 namespace pcl::floater {
 namespace {
 // Sorts triangles canonically, since later results depend on their order. Each begins with its
@@ -39,11 +35,10 @@ closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& 
   for (BoundaryLoop& loop : loops)
     loop.judgement.empty_length = loop.length;
   chooseOpenLoops (loops, components.count, settings.options.holes, 1.0 / points.scale);
-  std::vector<Eigen::Vector3f> normals;
+  Normals normals;
   normals.reserve (points.size ());
-  for (const Eigen::Vector3d& position : points.positions) {
-    const Eigen::Vector3d ray =
-        viewpoint.is_far ? viewpoint.place : Eigen::Vector3d (position - viewpoint.place);
+  for (const Vector3d& position : points.positions) {
+    const Vector3d ray = viewpoint.is_far ? viewpoint.place : Vector3d (position - viewpoint.place);
     normals.emplace_back (-ray.normalized ().cast<float> ());
   }
   const TriangleCost cost (points.positions, normals, nullptr, settings.surface.finish.cost);
@@ -54,8 +49,7 @@ closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& 
 // triangles alone are noise, unless they are all around a point, which may lie off the surface.
 // `is_gap` has an entry for each triangle.
 void
-dropShortSteps (const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_gap,
-                std::size_t shortest, std::vector<std::uint8_t>& is_step)
+dropShortSteps (const TriangleMesh& mesh, const Flags& is_gap, std::size_t shortest, Flags& is_step)
 {
   DisjointSets patches (is_step.size ());
   for (Index t = 0; t < is_step.size (); ++t)
@@ -142,8 +136,8 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   mesh = inOrder (triangulateHull (rays.places), run);
 
   run.beginStage (Stage::HOLES);
-  std::vector<std::uint8_t> is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);
-  std::vector<std::uint8_t> is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
+  Flags is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);
+  Flags is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
   dropShortSteps (mesh, is_left_out, settings.limits.shortest_step, is_step);
   surface.is_at_step.assign (points.size (), 0);
   for (std::size_t t = 0; t < is_step.size (); ++t) {

@@ -7,11 +7,6 @@
 #include "view/ray_evidence.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace pcl::floater {
 namespace {
@@ -24,7 +19,7 @@ public:
       : positions_ (points.positions), row_of_ (row_of), limits_ (limits), evidence_ (evidence),
         run_ (run), samples_ (samples), may_be_far_ (may_be_far)
   {
-    for (const Eigen::Vector3d& position : positions_)
+    for (const Vector3d& position : positions_)
       box_.extend (position);
     evidence_.hidden_share *= evidence_.density_regularity / limits.density_regularity;
     evidence_.density_regularity = limits.density_regularity;
@@ -37,9 +32,9 @@ public:
   }
 
   // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
-  std::optional<Viewpoint> findAlongRows (const Eigen::Vector3d& across) const
+  std::optional<Viewpoint> findAlongRows (const Vector3d& across) const
   {
-    const Eigen::Vector3d x = across.unitOrthogonal (), y = across.cross (x);
+    const Vector3d x = across.unitOrthogonal (), y = across.cross (x);
     const std::size_t count = limits_.row_directions;
     const double step = PI / static_cast<double> (count);
     std::vector<RatedViewpoint> candidates;
@@ -166,20 +161,19 @@ private:
   // ground is closer to its image than the precision of a descent by areas.
   Viewpoint mirrored (const Viewpoint& viewpoint) const
   {
-    std::vector<Eigen::Vector3d> offsets;
+    std::vector<Vector3d> offsets;
     for (const AreaSample& sample : samples_)
       offsets.emplace_back (sample.position - viewpoint.place);
     const auto around =
         offsets.begin () + static_cast<std::ptrdiff_t> (std::min (offsets.size (), AROUND));
-    std::partial_sort (offsets.begin (), around, offsets.end (),
-                       [] (const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-                         return a.squaredNorm () < b.squaredNorm ();
-                       });
+    std::partial_sort (
+        offsets.begin (), around, offsets.end (),
+        [] (const Vector3d& a, const Vector3d& b) { return a.squaredNorm () < b.squaredNorm (); });
     PlaneFit fit;
     for (auto offset = offsets.begin (); offset != around; ++offset)
       fit.add (*offset);
     const Plane plane = fit.plane ();
-    const double height = plane.height (Eigen::Vector3d::Zero ());
+    const double height = plane.height (Vector3d::Zero ());
     return {viewpoint.place - 2.0 * height * plane.normal, false};
   }
 
@@ -286,14 +280,14 @@ findRows (const Points& points, const RowOf& row_of, std::size_t count)
   const Positions& positions = points.positions;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
   std::size_t looked_at = 0;
-  std::vector<Eigen::Vector3d> directions;          // of the rows
+  std::vector<Vector3d> directions;                 // of the rows
   Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of their squares
   for (std::size_t p = step / 2; p < positions.size (); p += step) {
     const Row row = row_of (static_cast<Index> (p));
     if (row.size () < 2)
       continue;
-    const Eigen::Vector3d u = (positions[row[0]] - positions[p]).normalized ();
-    const Eigen::Vector3d v = (positions[row[1]] - positions[p]).normalized ();
+    const Vector3d u = (positions[row[0]] - positions[p]).normalized ();
+    const Vector3d v = (positions[row[1]] - positions[p]).normalized ();
     ++looked_at;
     if (u.dot (v) >= OPPOSITE)
       continue;
@@ -307,10 +301,10 @@ findRows (const Points& points, const RowOf& row_of, std::size_t count)
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (squares).eigenvectors ();
   };
   // Most rows may have one direction, which with any other one gives the plane.
-  const Eigen::Vector3d usual = axesOf (along).col (2);
+  const Vector3d usual = axesOf (along).col (2);
   along.setZero ();
   double bent = 0.0;
-  for (const Eigen::Vector3d& direction : directions)
+  for (const Vector3d& direction : directions)
     if (std::abs (direction.dot (usual)) < BENT) {
       ++bent;
       along += direction * direction.transpose () + usual * usual.transpose ();

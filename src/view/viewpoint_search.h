@@ -7,9 +7,6 @@
 #include "points/points.h"
 #include "view/area_search.h"
 
-#include <optional>
-#include <vector>
-
 namespace pcl::floater {
 /// Factors by which the evidence at a viewpoint may miss EvidenceLimits for the search to go on
 /// from there.
@@ -55,7 +52,7 @@ struct SearchLimits
 struct RowEvidence
 {
   double share = 0.0; ///< share of points between their two nearest neighbours, on opposite sides
-  Eigen::Vector3d across = Eigen::Vector3d::Zero (); ///< unit vector across the planes of the rows
+  Vector3d across = Vector3d::Zero (); ///< unit vector across the planes of the rows
   bool are_straight = true; ///< nearly all have one direction, so their planes are undetermined
 };
 

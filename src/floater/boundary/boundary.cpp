@@ -12,11 +12,6 @@
 
 #include <Eigen/SparseCholesky>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -106,7 +101,7 @@ growSegment (const Positions& points, Index seed, std::size_t size, const RunCon
   // Rank, length of the path from the seed, point.
   using Candidate = std::tuple<Index, double, Index>;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
-  std::vector<std::uint8_t> appended (points.size (), 0);
+  Flags appended (points.size (), 0);
   std::vector<Index> segment;
   candidates.emplace (0, 0.0, seed);
   ProgressLoop progress (run, size);
@@ -204,18 +199,17 @@ orderSegment (const Positions& positions, const std::vector<Index>& segment, con
 // are projected on the tangent plane of the point. O(n k log k).
 // \param opening_angle in radians
 std::vector<Index>
-openingAnglePoints (const Positions& positions, const CsrLists& neighbors,
-                    const std::vector<Eigen::Vector3f>& normals, double opening_angle,
-                    const RunContext& run)
+openingAnglePoints (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
+                    double opening_angle, const RunContext& run)
 {
-  std::vector<std::uint8_t> wide (positions.size (), 0);
+  Flags wide (positions.size (), 0);
   parallelPoints<PlanarStar, std::vector<PlanarNeighbor>> (
       run, positions.size (), [&] (Index p, auto& star, auto& planar) {
         const TangentFrame frame (normals[p].cast<double> ());
         planar.clear ();
         for (const Index q : neighbors.row (p)) {
-          const Eigen::Vector2d projected = frame.project (positions[q] - positions[p]);
-          if (projected != Eigen::Vector2d::Zero ())
+          const Vector2d projected = frame.project (positions[q] - positions[p]);
+          if (projected != Vector2d::Zero ())
             planar.push_back ({projected, q});
         }
         star.make (planar);
@@ -237,13 +231,13 @@ clusterBoundaryPoints (const Positions& positions, const std::vector<Index>& bou
   const Positions points = valuesAt (positions, boundary_points);
   const KdTree tree (points, run);
   const std::size_t appended = static_cast<std::size_t> (std::max (k, 0));
-  std::vector<std::uint8_t> taken (points.size (), 0);
+  Flags taken (points.size (), 0);
   std::vector<Neighbor> nearest;
   std::vector<std::vector<Index>> clusters;
   // By descending number of points around; ties in the order of the list.
   ProgressLoop progress (run, 2 * points.size ());
   std::vector<std::size_t> density;
-  for (const Eigen::Vector3d& point : points) {
+  for (const Vector3d& point : points) {
     progress.next ();
     density.push_back (tree.count (point, tolerance));
   }
@@ -336,7 +330,7 @@ givenLoop (const Points& points, const std::vector<Index>& loop)
   for (const auto& [duplicate, kept] : points.duplicates)
     if (const auto at = point_of.find (kept); at != point_of.end ())
       point_of.emplace (duplicate, at->second);
-  std::vector<std::uint8_t> seen (points.positions.size (), 0);
+  Flags seen (points.positions.size (), 0);
   for (const Index cloud_index : loop) {
     const auto at = point_of.find (cloud_index);
     const Index p = at != point_of.end () ? at->second : NONE;

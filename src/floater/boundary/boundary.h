@@ -11,9 +11,6 @@
 
 #include <pcl/surface/floater/options.h>
 
-#include <array>
-#include <vector>
-
 namespace pcl::floater {
 /// Thresholds for the loop of a disc.
 struct LoopLimits

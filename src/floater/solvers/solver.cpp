@@ -9,16 +9,10 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
-#include <iterator>
-#include <limits>
 #include <mutex>
 #include <new>
 #include <sstream>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
@@ -321,8 +315,8 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
 
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
-                const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
-                const std::vector<std::uint8_t>& reachable, std::size_t most_entries)
+                const std::vector<Index>& loop, const std::vector<Vector2d>& loop_uv,
+                const Flags& reachable, std::size_t most_entries)
 {
   LinearSystem system;
   std::vector<Index> place_in_loop (neighbors.rows (), NONE), unknown_of_point = place_in_loop;

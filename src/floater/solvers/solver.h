@@ -10,9 +10,6 @@
 #include <Eigen/SparseCore>
 #include <pcl/surface/floater/options.h>
 
-#include <array>
-#include <vector>
-
 namespace pcl::floater {
 /// A square matrix in compressed rows, whose columns ascend; see MOST_MATRIX_ENTRIES.
 using SystemMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -39,9 +36,8 @@ struct LinearSystem
 /// \throws IndexLimitReached if the matrix has more than `most_entries`
 LinearSystem
 assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
-                const std::vector<Index>& loop, const std::vector<Eigen::Vector2d>& loop_uv,
-                const std::vector<std::uint8_t>& reachable,
-                std::size_t most_entries = MOST_MATRIX_ENTRIES);
+                const std::vector<Index>& loop, const std::vector<Vector2d>& loop_uv,
+                const Flags& reachable, std::size_t most_entries = MOST_MATRIX_ENTRIES);
 
 /// The solution of a LinearSystem, and what it cost.
 struct Solution

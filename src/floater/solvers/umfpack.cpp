@@ -8,13 +8,9 @@
 #include <sys/mman.h>
 #include <umfpack.h>
 
-#include <array>
-#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <new>
-#include <numeric>
-#include <utility>
 
 namespace pcl::floater {
 namespace {
