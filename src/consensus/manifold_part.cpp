@@ -3,6 +3,7 @@
 #include "consensus/consensus.h"
 
 #include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
@@ -11,129 +12,74 @@
 
 namespace pcl::floater {
 namespace {
-// Removes triangles until every point has one fan.
-class FanPruner
+// The triangles around a point but for the fan of most votes. Of triangles with the same directed edge,
+// that of fewer votes is in no fan: at sharp edges and between sheets, triangles may be disjoint in
+// the tangent plane of one corner and overlap in that of another.
+std::vector<Index>
+besideBestFan (const VertexStar& star, const std::vector<std::uint8_t>& votes)
 {
-public:
-  FanPruner (Consensus& consensus, std::size_t points)
-      : triangles_ (consensus.triangles), votes_ (consensus.votes), kept_ (triangles_.size (), 1),
-        around_ (makeCsrLists (points, [this] (const auto& emit) {
-          for (Index t = 0; t < triangles_.size (); ++t)
-            for (const Index p : triangles_[t])
-              emit (p, t);
-        }))
-  {
-  }
+  const auto size = static_cast<Index> (star.size ());
+  const auto isWorse = [&] (Index i, Index j) {
+    const std::uint8_t own = votes[star[i].triangle], other = votes[star[j].triangle];
+    return own != other ? own < other : i > j;
+  };
+  Flags is_in (size, 1);
+  for (Index i = 0; i < size; ++i)
+    for (Index j = 0; j < size; ++j)
+      if (j != i && is_in[j] != 0 && isWorse (i, j) &&
+          (star[i].next == star[j].next || star[i].previous == star[j].previous))
+        is_in[i] = 0;
+  DisjointSets fans (size);
+  for (Index i = 0; i < size; ++i)
+    for (Index j = 0; j < size; ++j)
+      if (is_in[i] != 0 && is_in[j] != 0 && star[i].previous == star[j].next)
+        fans.join (i, j);
+  std::vector<std::size_t> weight (size, 0);
+  for (Index i = 0; i < size; ++i)
+    weight[fans.find (i)] += is_in[i] * votes[star[i].triangle];
+  const auto best =
+      static_cast<Index> (std::max_element (weight.begin (), weight.end ()) - weight.begin ());
+  std::vector<Index> beside;
+  for (Index i = 0; i < size; ++i)
+    if (is_in[i] == 0 || fans.find (i) != best)
+      beside.push_back (star[i].triangle);
+  return beside;
+}
 
-  void prune (const RunContext& run)
+// Removes triangles until every point has one fan. Where one is removed, the fan of another point may
+// be split: what is to go there is decided in the next round.
+void
+pruneFans (Consensus& consensus, std::size_t points, const RunContext& run)
+{
+  struct Pruned
   {
-    // Removing a triangle at one point may split the fan of another one, which is then tested
-    // again: in the same round if it comes later.
-    std::set<Index> points = pointsToPrune (run);
-    if (points.empty ())
-      return;
-    ProgressLoop progress (run);
-    while (!points.empty ()) {
-      std::set<Index> later;
-      for (const Index p : points) {
-        progress.next ();
-        dirty_.clear ();
-        keepLargestFan (p);
-        for (const Index q : dirty_)
-          (q > p ? points : later).insert (q);
-      }
-      points = std::move (later);
-    }
-    std::size_t left = 0;
-    for (Index t = 0; t < triangles_.size (); ++t) {
-      progress.next ();
-      if (kept_[t] != 0)
-        triangles_[left++] = triangles_[t];
-    }
-    triangles_.resize (left);
-  }
-
-private:
-  // Points whose triangles are not just one fan.
-  std::set<Index> pointsToPrune (const RunContext& run) const
-  {
-    const TriangleRanges ranges (triangles_, around_.rows (), run);
-    std::vector<std::vector<Index>> found (ranges.count ());
+    Index point;
+    std::vector<Index> beside;
+  };
+  for (bool has_changed = true; has_changed;) {
+    const TriangleRanges ranges (consensus.triangles, points, run);
+    std::vector<std::vector<Pruned>> found (ranges.count ());
     parallelTasks (run, ranges.count (), [&] (std::size_t r) {
-      const VertexStars stars (triangles_, ranges, r);
+      const VertexStars stars (consensus.triangles, ranges, r);
       StarOrder order;
-      for (std::size_t p = ranges.firstPoint (r); p < ranges.lastPoint (r); ++p)
-        if (!order.set (stars.of (p)) || !order.isOneFan ())
-          found[r].push_back (static_cast<Index> (p));
+      for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < ranges.lastPoint (r); ++p)
+        if (const VertexStar star = stars.of (p); !order.set (star) || !order.isOneFan ())
+          found[r].push_back ({p, besideBestFan (star, consensus.votes)});
     });
-    std::set<Index> points;
-    for (const std::vector<Index>& range : found)
-      points.insert (range.begin (), range.end ());
-    return points;
+    std::vector<Index> removed;
+    std::set<Index> changed;
+    for (const std::vector<Pruned>& range : found)
+      for (const auto& [p, beside] : range)
+        for (const Index t : changed.count (p) == 0 ? beside : std::vector<Index> ()) {
+          removed.push_back (t);
+          changed.insert (consensus.triangles[t].begin (), consensus.triangles[t].end ());
+        }
+    sortUnique (removed);
+    eraseRows (consensus.triangles, removed);
+    eraseRows (consensus.votes, removed);
+    has_changed = !removed.empty ();
   }
-
-  void keepLargestFan (Index p)
-  {
-    ring_.clear ();
-    for (Index t : around_.row (p))
-      if (kept_[t] != 0)
-        ring_.push_back (t);
-    dropDoubleEdges (p);
-    if (ring_.size () < 2)
-      return;
-    DisjointSets fans (ring_.size ());
-    for (Index a = 0; a < ring_.size (); ++a)
-      for (Index b = 0; b < a; ++b)
-        if (after (ring_[a], p, 1) == after (ring_[b], p, 2) ||
-            after (ring_[a], p, 2) == after (ring_[b], p, 1))
-          fans.join (a, b);
-    std::vector<Index> weight (ring_.size (), 0);
-    for (Index i = 0; i < ring_.size (); ++i)
-      weight[fans.find (i)] += votes_[ring_[i]];
-    const auto best = std::max_element (weight.begin (), weight.end ()) - weight.begin ();
-    for (Index i = 0; i < ring_.size (); ++i)
-      if (fans.find (i) != static_cast<Index> (best))
-        drop (ring_[i]);
-  }
-
-  // Of triangles with the same directed edge at p, keeps the one of most votes. They occur at sharp
-  // edges and between sheets: triangles may be disjoint in the tangent plane of one corner and
-  // overlap in that of another.
-  void dropDoubleEdges (Index p)
-  {
-    for (std::size_t i = 0; i < ring_.size (); ++i)
-      for (std::size_t j = i + 1; j < ring_.size () && kept_[ring_[i]] != 0; ++j) {
-        const Index t = ring_[i], u = ring_[j];
-        if (kept_[u] != 0 &&
-            (after (t, p, 1) == after (u, p, 1) || after (t, p, 2) == after (u, p, 2)))
-          drop (votes_[u] > votes_[t] ? t : u);
-      }
-    ring_.erase (
-        std::remove_if (ring_.begin (), ring_.end (), [this] (Index t) { return kept_[t] == 0; }),
-        ring_.end ());
-  }
-
-  // The corner of triangle t that comes one or two steps after p.
-  Index after (Index t, Index p, std::size_t steps) const
-  {
-    const Triangle& c = triangles_[t];
-    const std::size_t at = c[0] == p ? 0 : c[1] == p ? 1 : 2;
-    return c[(at + steps) % 3];
-  }
-
-  void drop (Index t)
-  {
-    kept_[t] = 0;
-    dirty_.insert (dirty_.end (), triangles_[t].begin (), triangles_[t].end ());
-  }
-
-  std::vector<Triangle>& triangles_;
-  const std::vector<std::uint8_t>& votes_;
-  Flags kept_;
-  const CsrLists around_;   // of each point, its triangles
-  std::vector<Index> ring_; // triangles around the current point
-  std::vector<Index> dirty_;
-};
+}
 
 // Removes islands from a mesh. Returns whether there are any.
 bool
@@ -177,7 +123,7 @@ manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smalle
               const RunContext& run)
 {
   const std::size_t points = neighbors.rows ();
-  FanPruner (consensus, points).prune (run);
+  pruneFans (consensus, points, run);
   TriangleMesh mesh;
   mesh.triangles = std::move (consensus.triangles);
   consensus = {};
