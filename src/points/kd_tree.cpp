@@ -157,29 +157,6 @@ KdTree::collect (const Vector3d& query, double radius, std::size_t most,
   return points.size () <= most;
 }
 
-std::size_t
-KdTree::count (const Vector3d& query, double radius) const
-{
-  const double sqr_radius = radius * radius;
-  std::size_t found = 0;
-  std::vector<Index> waiting (1, 0);
-  while (!waiting.empty ()) {
-    const Index node = waiting.back ();
-    waiting.pop_back ();
-    const Node& here = nodes_[node];
-    const Vector3d farthest =
-        (query - here.box.min ()).cwiseAbs ().cwiseMax ((query - here.box.max ()).cwiseAbs ());
-    if (farthest.squaredNorm () <= sqr_radius)
-      found += here.last - here.first;
-    else if (here.right == NONE)
-      for (Index i = here.first; i < here.last; ++i)
-        found += (items_[i].position - query).squaredNorm () <= sqr_radius ? 1 : 0;
-    else if (here.sqrDistance (query) <= sqr_radius)
-      waiting.insert (waiting.end (), {node + 1, here.right});
-  }
-  return found;
-}
-
 // Gathers the points around a group that begins at `first`. Returns its end.
 std::size_t
 SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t first)

@@ -60,10 +60,6 @@ public:
   bool collect (const Vector3d& query, double radius, std::size_t most,
                 std::vector<Index>& points) const;
 
-  /// Number of points within `radius` of `query` (that distance included). Boxes inside of that ball
-  /// count as a whole.
-  std::size_t count (const Vector3d& query, double radius) const;
-
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. Points behind the plane through `query` with the normal `ahead` may be skipped,
   /// and accept must reject them; a zero normal means no plane. Overwrites the result.

@@ -237,9 +237,11 @@ clusterBoundaryPoints (const Positions& positions, const std::vector<Index>& bou
   // By descending number of points around; ties in the order of the list.
   ProgressLoop progress (run, 2 * points.size ());
   std::vector<std::size_t> density;
+  std::vector<Index> around;
   for (const Vector3d& point : points) {
     progress.next ();
-    density.push_back (tree.count (point, tolerance));
+    tree.collect (point, tolerance, points.size (), around);
+    density.push_back (around.size ());
   }
   std::vector<Index> starts (points.size ());
   std::iota (starts.begin (), starts.end (), Index{0});
