@@ -79,9 +79,7 @@ orientMissingNormals (const TriangleMesh& mesh, const CsrLists& neighbors, Norma
 void
 leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
 {
-  Flags is_boundary (mesh.triangle_of.size (), 0);
-  for (const MeshEdge edge : boundaryEdges (mesh))
-    is_boundary[mesh.from (edge)] = 1;
+  const Flags is_boundary = boundaryPoints (mesh);
   const auto isClosed = [&is_boundary] (const BoundaryLoop& loop) {
     return loop.keep_open && std::any_of (loop.points.begin (), loop.points.end (),
                                           [&] (Index p) { return is_boundary[p] == 0; });

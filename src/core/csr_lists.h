@@ -97,6 +97,28 @@ makeCsrLists (std::size_t rows, Visit&& visit)
   return lists;
 }
 
+/// The place of a value in an ascending list; NONE if it is not there. O(log n).
+inline Index
+placeIn (const std::vector<Index>& ascending, Index value)
+{
+  const auto at = std::lower_bound (ascending.begin (), ascending.end (), value);
+  return at != ascending.end () && *at == value ? static_cast<Index> (at - ascending.begin ())
+                                                : NONE;
+}
+
+/// The rows of some ids, with these ids only, by their places among them.
+/// \param ids ascending
+inline CsrLists
+rowsWithin (const CsrLists& lists, const std::vector<Index>& ids)
+{
+  return makeCsrLists (ids.size (), [&] (const auto& emit) {
+    for (std::size_t i = 0; i < ids.size (); ++i)
+      for (const Index id : lists.row (ids[i]))
+        if (const Index place = placeIn (ids, id); place != NONE)
+          emit (i, place);
+  });
+}
+
 /// Turns row lengths into offsets: offsets[r + 1] is the length of row r before the call, and its
 /// end after it. O(rows).
 inline void

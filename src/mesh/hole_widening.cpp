@@ -54,7 +54,7 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
                const std::vector<LoopEvidence>& evidence, const std::vector<Index>& loop_of,
                const Positions& positions, const HoleWideningLimits& limits)
 {
-  BoundaryPeel peel (mesh, positions.size ());
+  BoundaryPeel peel (mesh);
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
   for (const MeshEdge e : peel.edges ())
     if (const Index loop = loop_of[mesh.from (e)];

@@ -42,11 +42,12 @@ public:
       loop_.push_back (numberOf (p));
       is_on_loop_[loop_.back ()] = 1;
     }
+    positions_ = valuesAt (positions, points_);
+    normals_ = valuesAt (geometry.stars.normals, points_);
+    spacing_ = valuesAt (geometry.meshSpacing (), points_);
+    neighbors_ = rowsWithin (geometry.neighbors, points_);
     std::vector<Index> fan;
     for (Index i = 0; i < points_.size (); ++i) {
-      positions_.push_back (positions[points_[i]]);
-      normals_.push_back (geometry.stars.normals[points_[i]]);
-      spacing_.push_back (geometry.meshSpacing ()[points_[i]]);
       mesh.fan (points_[i], fan);
       for (const Index t : fan) {
         const Triangle& c = mesh.triangles[t];
@@ -59,12 +60,6 @@ public:
         }
       }
     }
-    neighbors_ = makeCsrLists (points_.size (), [&] (const auto& emit) {
-      for (std::size_t i = 0; i < points_.size (); ++i)
-        for (const Index q : geometry.neighbors.row (points_[i]))
-          if (const Index j = numberOf (q); j != NONE)
-            emit (i, j);
-    });
   }
 
   // The cheapest cut; nothing if the loop stays.
@@ -98,11 +93,7 @@ private:
   using Edge = std::pair<Index, Index>;
   static constexpr std::uint8_t LEFT = 1, RIGHT = 2, BOTH = LEFT | RIGHT; // of the loop
 
-  Index numberOf (Index p) const
-  {
-    const auto at = std::lower_bound (points_.begin (), points_.end (), p);
-    return at != points_.end () && *at == p ? static_cast<Index> (at - points_.begin ()) : NONE;
-  }
+  Index numberOf (Index p) const { return placeIn (points_, p); }
 
   bool isOnLoop (Index p) const { return is_on_loop_[p] != 0; }
 

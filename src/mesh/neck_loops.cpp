@@ -262,9 +262,7 @@ findNeckLoops (const TriangleMesh& mesh, const Positions& positions, const Flags
   sortUnique (starts);
   if (starts.empty ())
     return found;
-  Flags is_boundary (positions.size (), 0);
-  for (const MeshEdge e : boundaryEdges (mesh))
-    is_boundary[mesh.from (e)] = is_boundary[mesh.to (e)] = 1;
+  const Flags is_boundary = boundaryPoints (mesh);
   NeckFinder finder (mesh, is_boundary, longest);
   Flags is_searched = is_skipped;
   is_searched.resize (positions.size (), 0);

@@ -81,7 +81,7 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
   const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
   if (folds.empty ())
     return 0;
-  BoundaryPeel peel (mesh, positions.size ());
+  BoundaryPeel peel (mesh);
   std::size_t count = 0;
   for (const MeshEdge fold : folds) {
     const MeshEdge other = mesh.mate (fold);
@@ -114,7 +114,7 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& 
              const RunContext& run)
 {
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
-  BoundaryPeel peel (mesh, positions.size ());
+  BoundaryPeel peel (mesh);
   if (peel.edges ().empty ())
     return 0;
   std::vector<double> corners = sampleCorners (mesh, positions, run);

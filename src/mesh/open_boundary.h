@@ -14,13 +14,10 @@ class BoundaryPeel
 {
 public:
   /// O(n).
-  /// \param points number of points of the mesh
-  BoundaryPeel (const TriangleMesh& mesh, std::size_t points)
+  explicit BoundaryPeel (const TriangleMesh& mesh)
       : mesh_ (mesh), edges_ (boundaryEdges (mesh)), is_taken_ (mesh.triangles.size (), 0),
-        is_at_boundary_ (points, 0)
+        is_at_boundary_ (boundaryPoints (mesh))
   {
-    for (const MeshEdge e : edges_)
-      is_at_boundary_[mesh.from (e)] = is_at_boundary_[mesh.to (e)] = 1;
   }
 
   /// The boundary edges of the mesh, in the order of its triangles.

@@ -118,16 +118,9 @@ private:
   LocalGeometry geometryOf (const PlaceOfMesh& at, const TriangleMesh& mesh) const
   {
     LocalGeometry geometry;
-    const std::size_t points = at.points.size ();
-    geometry.neighbors = makeCsrLists (points, [&] (const auto& emit) {
-      for (Index i = 0; i < points; ++i)
-        for (const Index q : neighbors_.row (at.points[i]))
-          if (const auto found = std::lower_bound (at.points.begin (), at.points.end (), q);
-              found != at.points.end () && *found == q)
-            emit (i, static_cast<Index> (found - at.points.begin ()));
-    });
+    geometry.neighbors = rowsWithin (neighbors_, at.points);
     geometry.spacing = valuesAt (spacing_, at.points);
-    geometry.stars.normals.assign (points, Vector3f::Zero ());
+    geometry.stars.normals.assign (at.points.size (), Vector3f::Zero ());
     for (const Triangle& t : mesh.triangles)
       for (const Index p : t)
         geometry.stars.normals[p] += areaVectorOf (t, at.place.positions).cast<float> ();

@@ -232,6 +232,15 @@ boundaryEdges (const TriangleMesh& mesh)
   return edges;
 }
 
+Flags
+boundaryPoints (const TriangleMesh& mesh)
+{
+  Flags is_boundary (mesh.triangle_of.size (), 0);
+  for (const MeshEdge e : boundaryEdges (mesh))
+    is_boundary[mesh.from (e)] = is_boundary[mesh.to (e)] = 1;
+  return is_boundary;
+}
+
 std::vector<std::vector<Index>>
 boundaryLoops (const TriangleMesh& mesh, const RunContext& run)
 {

@@ -207,6 +207,10 @@ private:
 std::vector<MeshEdge>
 boundaryEdges (const TriangleMesh& mesh);
 
+/// Of each point: whether it is on the boundary. O(n).
+Flags
+boundaryPoints (const TriangleMesh& mesh);
+
 /// The points of each boundary loop in order, the surface on the left. A loop starts at its
 /// smallest point; loops are sorted by these. O(n).
 std::vector<std::vector<Index>>

@@ -151,11 +151,7 @@ placeOf (Row free, const TriangleMesh& mesh, const Positions& positions, const C
   points.assign (free.begin (), free.end ());
   addRings (mesh, neighbors, points);
   addRings (mesh, neighbors, points);
-  const auto inPlace = [&points] (Index p) {
-    const auto found = std::lower_bound (points.begin (), points.end (), p);
-    return found != points.end () && *found == p ? static_cast<Index> (found - points.begin ())
-                                                 : NONE;
-  };
+  const auto inPlace = [&points] (Index p) { return placeIn (points, p); };
   place.is_free.assign (points.size (), 0);
   place.is_rim.assign (points.size (), 0);
   place.is_whole.assign (points.size (), 1);

@@ -22,12 +22,9 @@ cutOut (const std::vector<Triangle>& triangles, const std::vector<Index>& piece,
   result.positions = valuesAt (positions, result.points);
   result.mesh.triangles.reserve (piece.size ());
   for (const Index t : piece) {
-    Triangle corners;
-    for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = static_cast<Index> (
-          std::lower_bound (result.points.begin (), result.points.end (), triangles[t][i]) -
-          result.points.begin ());
-    result.mesh.triangles.push_back (corners);
+    const auto& [a, b, c] = triangles[t];
+    result.mesh.triangles.push_back (
+        {placeIn (result.points, a), placeIn (result.points, b), placeIn (result.points, c)});
   }
   if (!result.mesh.connect (result.points.size (), 1))
     return result;
