@@ -125,8 +125,7 @@ reportLeftOut (const Points& points, const MeshExamination& found, const LocalGe
     report.statistics.working_points = points.size () - found.unused.size ();
     reportOutliers (valuesAt (points.cloud_index, found.unused), FindingId::OUTLIERS, report);
   }
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), request.run),
-                        report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 }
 
 // Makes the result of a mesh: adds the points that were set aside, examines, trims, reports. The end of

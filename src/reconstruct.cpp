@@ -139,7 +139,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   }
   reportNoise (noise, noise.is_strong && noise.noisy_points > 0, report);
   noise = {};
-  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing (), run), report);
+  reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 
   if (as_disc)
     return reconstructDisc (points, std::move (geometry), request, result);

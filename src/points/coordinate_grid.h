@@ -3,7 +3,6 @@
 // Detection of coordinates that were rounded too much.
 #pragma once
 
-#include "core/run_context.h"
 #include "points/points.h"
 
 namespace pcl::floater {
@@ -23,10 +22,9 @@ struct CoordinateGrid
 /// - all three axes have the same step, and it is smaller than the spacing (up to 0.4 of it), or a
 ///   tenth of the points coincide.
 ///
-/// Uses at most 131,072 points and 30 milliseconds.
+/// Uses some 4096 points.
 /// \param spacing local spacing of each point
 CoordinateGrid
-findCoordinateGrid (const Points& points, const std::vector<float>& spacing,
-                    const RunContext& run = 1);
+findCoordinateGrid (const Points& points, const std::vector<float>& spacing);
 
 } // namespace pcl::floater
