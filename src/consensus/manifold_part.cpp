@@ -70,10 +70,11 @@ pruneFans (Consensus& consensus, std::size_t points, const RunContext& run)
     std::set<Index> changed;
     for (const std::vector<Pruned>& range : found)
       for (const auto& [p, beside] : range)
-        for (const Index t : changed.count (p) == 0 ? beside : std::vector<Index> ()) {
-          removed.push_back (t);
-          changed.insert (consensus.triangles[t].begin (), consensus.triangles[t].end ());
-        }
+        if (changed.count (p) == 0)
+          for (const Index t : beside) {
+            removed.push_back (t);
+            changed.insert (consensus.triangles[t].begin (), consensus.triangles[t].end ());
+          }
     sortUnique (removed);
     eraseRows (consensus.triangles, removed);
     eraseRows (consensus.votes, removed);
