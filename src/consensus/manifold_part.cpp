@@ -36,7 +36,7 @@ besideBestFan (const VertexStar& star, const std::vector<std::uint8_t>& votes)
         fans.join (i, j);
   std::vector<std::size_t> weight (size, 0);
   for (Index i = 0; i < size; ++i)
-    weight[fans.find (i)] += is_in[i] * votes[star[i].triangle];
+    weight[fans.find (i)] += is_in[i] != 0 ? votes[star[i].triangle] : 0;
   const auto best =
       static_cast<Index> (std::max_element (weight.begin (), weight.end ()) - weight.begin ());
   std::vector<Index> beside;

@@ -3,6 +3,8 @@
 // How good a mesh is, by what a run has found out.
 #pragma once
 
+#include "core/types.h"
+
 #include <pcl/surface/floater/report.h>
 
 namespace pcl::floater {
