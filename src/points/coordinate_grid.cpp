@@ -45,7 +45,8 @@ lookAlong (const Points& points, int axis)
   AxisGrid grid;
   grid.finest = floatStep (std::max ({first, -last, 0.0}));
   grid.coarsest = floatStep (std::max (-first, last));
-  // Far more than the rounding of this arithmetic, and less than a step of ALIKE of a coarse one.
+  // Even n points on a line are an n-th of its length apart. Differences of less than ALIKE of a coarse
+  // step there are rounding.
   const double rounding = ALIKE * COARSE * (last - first) / static_cast<double> (points.size ());
   for (std::size_t i = 1; i < values.size (); ++i)
     if (const double step = values[i] - values[i - 1]; step > rounding)

@@ -112,8 +112,10 @@ TEST_P (AnyTopology, IsTheSurface)
 {
   // Outliers less than 10 spacings away in the plane of a sheet are taken for a part of it, and a thin body
   // without points at its sides has the same points as two close sheets. A blade is left with tunnels
-  // along an edge of 16 degrees, which are too near to each other to be cut one by one.
-  const std::set<std::string> still_wrong{"sphere_outliers_near", "parallel_2", "blade_16"};
+  // along an edge of 16 degrees, which are too near to each other to be cut one by one. A sheet with a
+  // ragged boundary keeps an edge of 5.3 spacings at its fold.
+  const std::set<std::string> still_wrong{"sphere_outliers_near", "parallel_2", "blade_16",
+                                          "fold_ragged_seed_6"};
   const Case& one = GetParam ();
   if (still_wrong.count (one.name) != 0 && std::getenv ("PCL_FLOATER_SHOW_WRONG") == nullptr)
     GTEST_SKIP () << "this surface does not come out right yet";
@@ -271,7 +273,7 @@ cases ()
     });
   for (const std::uint64_t seed : {1, 2, 3, 10, 14, 201})
     add ("fold_seed_" + std::to_string (seed), [=] { return foldedSheet (seed); });
-  for (const std::uint64_t seed : {3, 12, 13, 21, 23})
+  for (const std::uint64_t seed : {3, 6, 12, 13, 21, 23})
     add ("fold_ragged_seed_" + std::to_string (seed), [=] { return foldedSheet (seed, true); });
   // Outliers, several components.
   add ("sphere_outliers", [] { return withOutliers (sphere (3000, 6), 20, 12.0, 7); });
