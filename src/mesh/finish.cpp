@@ -80,16 +80,15 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
     remake (WIDEST);
-    if (!finish.remade.is_noise)
-      finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy,
-                                   settings.limits.remaking.necks, run);
+    finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy,
+                                 settings.limits.remaking.necks, run);
     if (finish.necks_cut > 0)
       finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     if (finish.folds + finish.pairs_found + finish.remade.points () + finish.necks_cut > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch.
-      if (!finish.remade.is_noise && repairMesh (mesh, positions, geometry, Repair::BEFORE_REMAKING,
-                                                 settings.limits, finish, run)
-                                         .hasChanged ())
+      if (repairMesh (mesh, positions, geometry, Repair::BEFORE_REMAKING, settings.limits, finish,
+                      run)
+              .hasChanged ())
         remake (WIDEST_AGAIN);
       if (!settings.are_points_added)
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);

@@ -25,10 +25,8 @@ struct RemakingLimits
 /// What remakeZones () has done.
 struct RemadeZones
 {
-  Flags is_remade;       ///< of each point: its triangles were made anew; or empty
-  Flags is_noisy;        ///< of each point: the last zone with it was noise, and a
-                         ///< large one; or empty
-  bool is_noise = false; ///< the cloud is noise, so that no zone can be made anew
+  Flags is_remade; ///< of each point: its triangles were made anew; or empty
+  Flags is_noisy;  ///< of each point: the last zone with it was noise, and a large one; or empty
 
   std::size_t points () const
   {
