@@ -69,39 +69,33 @@ public:
     return found;
   }
 
-  /// By Euler's formula. Points whose triangles make several fans count once for each.
-  long twiceHandles () const
+  /// By Euler's formula, with a point of its own for each fan of a point.
+  long twiceHandles (const RunContext& run) const
   {
     const auto corner = [] (Index t, std::uint8_t side) { return 3 * t + side; };
     const auto triangles = static_cast<Index> (mesh_.triangles.size ());
-    DisjointSets fans (3 * mesh_.triangles.size ()), loops = fans, pieces = fans;
-    std::vector<Index> open;
+    DisjointSets fans (std::size_t{3} * triangles);
     for (Index t = 0; t < triangles; ++t)
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index from = corner (t, TriangleMesh::next (side)),
-                    to = corner (t, TriangleMesh::previous (side));
-        pieces.join (from, to);
-        const MeshEdge mate = mesh_.mate ({t, side});
-        if (mate.triangle == NONE) {
-          loops.join (from, to);
-          open.push_back (from);
-          continue;
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (const MeshEdge mate = mesh_.mate ({t, side}); mate.triangle != NONE) {
+          fans.join (corner (t, TriangleMesh::next (side)),
+                     corner (mate.triangle, TriangleMesh::previous (mate.side)));
+          fans.join (corner (t, TriangleMesh::previous (side)),
+                     corner (mate.triangle, TriangleMesh::next (mate.side)));
         }
-        const Index across_from = corner (mate.triangle, TriangleMesh::previous (mate.side)),
-                    across_to = corner (mate.triangle, TriangleMesh::next (mate.side));
-        for (DisjointSets* sets : {&fans, &loops, &pieces}) {
-          sets->join (from, across_from);
-          sets->join (to, across_to);
-        }
-      }
-    const auto open_edges = static_cast<long> (open.size ());
-    for (Index& from : open)
-      from = loops.find (from);
-    sortUnique (open);
-    long twice = -static_cast<long> (open.size ());
-    for (Index i = 0; i < 3 * triangles; ++i)
-      twice += (pieces.find (i) == i ? 2 : 0) - (fans.find (i) == i ? 1 : 0);
-    return twice + (static_cast<long> (triangles) + open_edges) / 2;
+    long points = 0;
+    const std::vector<Index> point_of = std::move (fans).number ([&points] (Index) {
+      ++points;
+      return true;
+    });
+    TriangleMesh split;
+    for (Index t = 0; t < triangles; ++t)
+      split.triangles.push_back ({point_of[3 * t], point_of[3 * t + 1], point_of[3 * t + 2]});
+    split.connect (static_cast<std::size_t> (points), run);
+    const auto open = static_cast<long> (boundaryEdges (split).size ()),
+               loops = static_cast<long> (boundaryLoops (split, run).size ()),
+               pieces = static_cast<long> (findComponents (split, run).count);
+    return 2 * pieces - loops - points + (static_cast<long> (triangles) + open) / 2;
   }
 
   /// Triangles that cross, folds, open edges that are not of a boundary that stays, and points inside

@@ -63,7 +63,7 @@ public:
       if (misfits.empty ()) {
         const PieceInPlace before (at.place, at.old, {}, run_);
         while (!is_whole && after->isManifold () &&
-               after->twiceHandles () > before.twiceHandles ()) {
+               after->twiceHandles (run_) > before.twiceHandles (run_)) {
           if (!cutHandle (at, *after, made))
             return std::nullopt;
           after.emplace (at.place, made.triangles, made.is_turned, run_);
@@ -106,12 +106,13 @@ private:
 
   bool isBetter (const PieceInPlace& after, const PieceInPlace& before) const
   {
+    if (!after.isManifold ())
+      return false;
     const double handles =
-        0.5 * static_cast<double> (after.twiceHandles () - before.twiceHandles ());
-    return after.isManifold () &&
-           static_cast<double> (after.faults (run_)) +
-                   limits_.handle_faults * std::max (handles, 0.0) <=
-               limits_.faults_left * static_cast<double> (before.faults (run_));
+        0.5 * static_cast<double> (after.twiceHandles (run_) - before.twiceHandles (run_));
+    return static_cast<double> (after.faults (run_)) +
+               limits_.handle_faults * std::max (handles, 0.0) <=
+           limits_.faults_left * static_cast<double> (before.faults (run_));
   }
 
   // The geometry of a place, as far as the search for necks needs it.
@@ -145,7 +146,7 @@ private:
                        triangles.end ());
       const PieceInPlace after (place, triangles, made.is_turned, run_);
       if (triangles.size () + frame.size () != all || !after.isManifold () ||
-          after.twiceHandles () >= piece.twiceHandles () || !after.misfits (run_).empty ())
+          after.twiceHandles (run_) >= piece.twiceHandles (run_) || !after.misfits (run_).empty ())
         return false;
       made.triangles = std::move (triangles);
       return true;

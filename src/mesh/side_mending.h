@@ -14,14 +14,11 @@ class SideMending
 public:
   /// \param is_free   of each point
   /// \param overlap   across each facet of each tetrahedron, see remakePlace ()
-  /// \param is_frame  of each facet: it stays between two sides
   /// \param is_behind of each tetrahedron: its side, which changes
   SideMending (const Tetrahedra& all, const Flags& is_free,
-               const std::vector<std::array<double, 4>>& overlap,
-               const std::vector<std::array<std::uint8_t, 4>>& is_frame, Flags& is_behind)
-      : all_ (all), is_free_ (is_free), overlap_ (overlap), is_frame_ (is_frame),
-        is_behind_ (is_behind), flaws_ (is_free.size (), NONE), is_left_out_ (is_free.size (), 0),
-        is_reached_ (all.size ())
+               const std::vector<std::array<double, 4>>& overlap, Flags& is_behind)
+      : all_ (all), is_free_ (is_free), overlap_ (overlap), is_behind_ (is_behind),
+        flaws_ (is_free.size (), NONE), is_reached_ (all.size ())
   {
   }
 
@@ -35,15 +32,18 @@ public:
   }
 
   /// Moves single tetrahedra, or pieces around a point: those that cure most, of equal ones those
-  /// that give the surface the facets of least overlap. Points that this does not mend come on one
-  /// side altogether, and the others are mended again. It ends early where points are on many
+  /// that give the surface the facets of least overlap. It ends early where points are on many
   /// tetrahedra.
   void mend ()
   {
     most_work_ = work_ + std::max (LEAST_WORK, WORK * is_free_.size ());
-    do
-      mendAll ();
-    while (leaveOut ());
+    bool has_changed = true;
+    for (int round = 0; round < ROUNDS && has_changed; ++round) {
+      has_changed = false;
+      for (Index p = 0; p < is_free_.size () && work_ < most_work_; ++p)
+        if (is_free_[p] != 0 && knownFlawsAt (p) > 0)
+          has_changed = mendAt (p) || has_changed;
+    }
   }
 
 private:
@@ -85,9 +85,7 @@ private:
         if (count[side] > 1 && (piece.size () < most[side] || piece.size () < 4))
           pieces->push_back (std::move (piece));
       }
-    if (count[0] > 0 && count[1] > 0)
-      return count[0] + count[1] - 2;
-    return is_left_out_[p] != 0 ? 0 : ENCLOSED;
+    return count[0] > 0 && count[1] > 0 ? count[0] + count[1] - 2 : ENCLOSED;
   }
 
   // The same as long as no tetrahedron there is turned.
@@ -96,57 +94,6 @@ private:
     if (flaws_[p] == NONE)
       flaws_[p] = static_cast<Index> (flawsAt (p));
     return flaws_[p];
-  }
-
-  void mendAll ()
-  {
-    bool has_changed = true;
-    for (int round = 0; round < ROUNDS && has_changed; ++round) {
-      has_changed = false;
-      for (Index p = 0; p < is_free_.size () && work_ < most_work_; ++p)
-        if (is_free_[p] != 0 && knownFlawsAt (p) > 0)
-          has_changed = mendAt (p) || has_changed;
-    }
-  }
-
-  // Points that could not be mended come on one side, so that they have no triangle: on the side that
-  // leaves fewest flaws at others.
-  // \return whether there are any
-  bool leaveOut ()
-  {
-    bool has_changed = false;
-    for (Index p = 0; p < is_free_.size () && work_ < most_work_; ++p) {
-      if (is_free_[p] == 0 || is_left_out_[p] != 0 || knownFlawsAt (p) == 0)
-        continue;
-      is_left_out_[p] = 1;
-      flaws_[p] = NONE;
-      std::array<std::vector<Index>, 2> moves; // the tetrahedra before, and those behind
-      for (const Index t : all_.around.row (p))
-        moves[is_behind_[t]].push_back (t);
-      const std::vector<Index>* best = nullptr;
-      std::size_t fewest = 0;
-      for (const std::vector<Index>& move : moves) {
-        if (std::any_of (move.begin (), move.end (), [this] (Index t) {
-              const auto& frame = is_frame_[t];
-              return all_.isInfinite (t) || std::count (frame.begin (), frame.end (), 0) < 4;
-            }))
-          continue;
-        std::size_t flaws = 0;
-        turn (move);
-        for (const Index q : cornersOf (move))
-          flaws += flawsAt (q);
-        turn (move);
-        if (best == nullptr || flaws < fewest) {
-          best = &move;
-          fewest = flaws;
-        }
-      }
-      if (best == nullptr)
-        continue;
-      turnForGood (*best);
-      has_changed = true;
-    }
-    return has_changed;
   }
 
   // Tries pieces, and single tetrahedra.
@@ -223,10 +170,8 @@ private:
   const Tetrahedra& all_;
   const Flags& is_free_;
   const std::vector<std::array<double, 4>>& overlap_;
-  const std::vector<std::array<std::uint8_t, 4>>& is_frame_;
   Flags& is_behind_;
   std::vector<Index> flaws_;             // of each point: flawsAt (), NONE if not known
-  Flags is_left_out_;                    // of each point: need not have two sides
   std::vector<Index> piece_;             // scratch of flawsAt ()
   Flags is_reached_;                     // of each tetrahedron: the same
   std::size_t work_ = 0, most_work_ = 0; // tetrahedra that flawsAt () has looked at, and may

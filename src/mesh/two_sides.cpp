@@ -143,7 +143,7 @@ public:
     joinOutside ();
     placeFacets ();
     decide ();
-    SideMending mending (all_, place_.is_free, overlap_, is_frame_, is_behind_);
+    SideMending mending (all_, place_.is_free, overlap_, is_behind_);
     made.flawed = mending.flawed ();
     const auto free = std::count (place_.is_free.begin (), place_.is_free.end (), 1);
     if (isNoise (made.flawed, static_cast<std::size_t> (free)))

@@ -30,8 +30,7 @@ struct RemadePlace
   Flags is_turned;                 ///< of each patch: its back is the front of `triangles`
   std::size_t flawed = 0; ///< free points at which the balls tell no two sides. Noise, if there are
                           ///< so many (see isNoise); nothing else is set then
-  bool is_right = false;  ///< the new triangles are one fan around each free point, or none around
-                          ///< those few at which two sides could not be told
+  bool is_right = false;  ///< the new triangles are one fan around each free point
 };
 
 /// Whether points are noise, by the number of the flawed ones of them. Generated bodies with thin
