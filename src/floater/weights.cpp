@@ -51,11 +51,15 @@ struct LocalStar
   }
 };
 
-// The sine is an absolute value, since rounding may give it the wrong sign in sectors next to 0 or pi.
+// tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin. The sine is an absolute value, since rounding may
+// give it the wrong sign in sectors next to 0 or pi.
 double
 halfTangentBetween (const Vector2d& a, const Vector2d& b)
 {
-  return halfTangent (std::abs (cross (a, b)), a.dot (b));
+  const double sine = std::abs (cross (a, b)), cosine = a.dot (b);
+  if (cosine >= 0.0)
+    return sine / (1.0 + cosine);
+  return 1.0 - cosine < LARGEST_TANGENT * sine ? (1.0 - cosine) / sine : LARGEST_TANGENT;
 }
 
 // Gives each of several neighbours in one direction the mean of their weights. Only their sum
@@ -186,15 +190,6 @@ weighStar (const LocalStar& star, Weighting weighting, double* weights)
 }
 
 } // namespace
-
-// tan (alpha / 2) = sin / (1 + cos) = (1 - cos) / sin
-double
-halfTangent (double sine, double cosine)
-{
-  if (cosine >= 0.0)
-    return sine / (1.0 + cosine);
-  return 1.0 - cosine < LARGEST_TANGENT * sine ? (1.0 - cosine) / sine : LARGEST_TANGENT;
-}
 
 std::vector<double>
 computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)

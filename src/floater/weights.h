@@ -13,12 +13,6 @@ namespace pcl::floater {
 /// rounding: a zero weight would cut the graph.
 constexpr double SMALLEST_WEIGHT = 1e-10;
 
-/// tan (alpha / 2) of the angle between two unit vectors without cancellation (TW 385, equation (3));
-/// at most 1e8.
-/// \param sine of the angle, 0 or more
-double
-halfTangent (double sine, double cosine);
-
 /// Weights lambda_ij > 0 that sum to 1 in each row.
 ///
 /// In a closed star, mean value weights (Floater 2003; TW 385, equations (2) and (3)) and shape

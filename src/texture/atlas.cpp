@@ -7,21 +7,21 @@
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 
-#include <map>
+#include <boost/icl/interval_set.hpp>
 
 namespace pcl::floater {
 namespace {
-// Cells first to last of a row.
-struct CellRun
-{
-  Index first, last;
-};
+// Cells of a row, from a first one up to, and without, an end.
+using Cells = boost::icl::right_open_interval<Index>;
 
-// A shape of cells: for each row its runs, in order, not adjacent.
+// Whether cells are taken, by rows, the lowest first.
+using CellArray = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// A shape of cells.
 struct CellMask
 {
   Index width = 0;
-  std::vector<std::vector<CellRun>> rows; // the lowest first
+  std::vector<std::vector<Cells>> rows; // the lowest first; in order, not adjacent
   std::size_t cells = 0;
 };
 
@@ -34,28 +34,8 @@ struct CellPlace
   std::uint8_t quarters = 0; // which of the four directions of the shape
 };
 
-// Shapes up to this many cells wide and high are packed as boxes: the search for one can start
-// where the last one of its size was placed.
-constexpr std::size_t SMALL = 8;
-
-// Rows of shapes that the search for places may look at, at some 5 nanoseconds.
-constexpr std::size_t MOST_WORK = 100'000'000, MOST_WORK_OF_SHAPE = 10'000;
-
-// Sorts runs, and joins adjacent ones.
-void
-joinRuns (std::vector<CellRun>& runs)
-{
-  std::sort (runs.begin (), runs.end (),
-             [] (const CellRun& a, const CellRun& b) { return a.first < b.first; });
-  std::size_t kept = 0;
-  for (const CellRun& run : runs) {
-    if (kept > 0 && run.first <= runs[kept - 1].last + 1)
-      runs[kept - 1].last = std::max (runs[kept - 1].last, run.last);
-    else
-      runs[kept++] = run;
-  }
-  runs.resize (kept);
-}
+// Rows of shapes that the search for places may look at, at some 20 nanoseconds.
+constexpr std::size_t MOST_WORK = 50'000'000, MOST_WORK_OF_SHAPE = 10'000;
 
 // Least and largest x of a triangle between the heights low and high. Empty if it has no point
 // there.
@@ -81,36 +61,27 @@ extentBetween (const std::array<Vector2d, 3>& corners, double low, double high)
 // A strip of cells of a given width and any height.
 class Strip
 {
+  using CellRow = boost::icl::interval_set<Index, std::less, Cells>;
+
 public:
   explicit Strip (Index width) : width_ (width) {}
 
   // The lowest free position of a shape from a row on, then the leftmost one; in row `end` if there
   // is none below. For shapes that are not wider than the strip.
-  CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end) const
+  CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end)
   {
     CellPlace place = from;
-    for (; place.y < end; ++place.y, place.x = 0, work_ += shape.rows.size ())
-      if (isWideEnough (shape, place.y) && moveToFree (shape, place))
-        break;
+    while (place.y < end && !moveToFree (shape, place))
+      place = {0, place.y + 1};
     return place;
   }
 
   void occupy (const CellMask& shape, const CellPlace& place)
   {
     rows_.resize (std::max (rows_.size (), place.y + shape.rows.size ()));
-    for (std::size_t r = 0; r < shape.rows.size (); ++r) {
-      std::vector<CellRun>& row = rows_[place.y + r];
-      for (const CellRun& run : shape.rows[r])
-        row.push_back ({place.x + run.first, place.x + run.last});
-      joinRuns (row);
-      widest_.resize (rows_.size (), width_);
-      Index free = 0, last = 0; // free cells; end of the occupied ones
-      for (const CellRun& run : row) {
-        free = std::max (free, run.first - last);
-        last = run.last + 1;
-      }
-      widest_[place.y + r] = std::max (free, width_ - last);
-    }
+    for (std::size_t r = 0; r < shape.rows.size (); ++r)
+      for (const Cells& run : shape.rows[r])
+        rows_[place.y + r] += Cells (place.x + run.lower (), place.x + run.upper ());
   }
 
   std::size_t height () const { return rows_.size (); }
@@ -118,20 +89,10 @@ public:
   std::size_t work () const { return work_; } // rows of shapes that were looked at
 
 private:
-  // Whether every row of the shape is at most as wide as the widest free run in its row.
-  bool isWideEnough (const CellMask& shape, Index y) const
-  {
-    for (std::size_t r = 0; r < shape.rows.size () && y + r < rows_.size (); ++r)
-      for (const CellRun& run : shape.rows[r])
-        if (widest_[y + r] <= run.last - run.first)
-          return false;
-    return true;
-  }
-
   // Moves a shape to the right until it is free. Skipped positions are occupied, so earlier rows
   // need no new test.
   // \return false if it leaves the strip
-  bool moveToFree (const CellMask& shape, CellPlace& place) const
+  bool moveToFree (const CellMask& shape, CellPlace& place)
   {
     const std::size_t rows = std::min (
         shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
@@ -143,28 +104,24 @@ private:
   }
 
   // \return whether the shape was moved
-  static bool moveInRow (const std::vector<CellRun>& taken, const std::vector<CellRun>& runs,
-                         Index& x)
+  static bool moveInRow (const CellRow& taken, const std::vector<Cells>& runs, Index& x)
   {
     const Index before = x;
-    for (std::size_t i = 0; i < runs.size ();) {
-      const auto in_way =
-          std::lower_bound (taken.begin (), taken.end (), x + runs[i].first,
-                            [] (const CellRun& t, Index first) { return t.last < first; });
-      if (in_way != taken.end () && in_way->first <= x + runs[i].last) {
-        x = in_way->last + 1 - runs[i].first;
-        i = 0;
+    for (auto run = runs.begin (); run != runs.end ();) {
+      const auto in_way = taken.find (Cells (x + run->lower (), x + run->upper ()));
+      if (in_way == taken.end ())
+        ++run;
+      else {
+        x = in_way->upper () - run->lower ();
+        run = runs.begin ();
       }
-      else
-        ++i;
     }
     return x != before;
   }
 
   Index width_;
-  std::vector<std::vector<CellRun>> rows_; // occupied cells
-  std::vector<Index> widest_;              // of each row: length of the longest free run
-  mutable std::size_t work_ = 0;
+  std::vector<CellRow> rows_; // occupied cells
+  std::size_t work_ = 0;
 };
 
 // \param[out] places of the shapes
@@ -175,83 +132,79 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
 {
   places.resize (shapes.size ());
   Strip strip (width);
-  std::map<std::pair<Index, std::size_t>, CellPlace> last_places; // of boxes of a size
   // Where there are thousands of long shapes, such as needles, the rest is packed as boxes upwards.
   const std::size_t most_work = MOST_WORK + MOST_WORK_OF_SHAPE * shapes.size ();
   CellPlace last_of_rest;
   ProgressLoop progress (run, shapes.size ());
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
-    CellPlace best;
-    CellMask box = shapes[s][0];
-    const bool is_small = box.width <= SMALL && box.rows.size () <= SMALL;
-    if (is_small || strip.work () > most_work) {
-      for (std::vector<CellRun>& row : box.rows)
-        row = {{0, box.width - 1}};
-      CellPlace& last = is_small ? last_places[{box.width, box.rows.size ()}] : last_of_rest;
-      last = best = strip.findPlace (box, last, NONE);
-      strip.occupy (box, best);
+    if (strip.work () > most_work) {
+      CellMask box = shapes[s][0];
+      box.rows.assign (box.rows.size (), {Cells (0, box.width)});
+      places[s] = last_of_rest = strip.findPlace (box, last_of_rest, NONE);
+      strip.occupy (box, last_of_rest);
+      continue;
     }
-    else {
-      std::size_t least_top = NONE;
-      for (std::uint8_t quarters = 0; quarters < 4; ++quarters) {
-        const CellMask& shape = shapes[s][quarters];
-        if (shape.width > width || shape.rows.size () >= least_top)
-          continue;
-        CellPlace place = strip.findPlace (shape, {}, least_top - shape.rows.size ());
-        place.quarters = quarters;
-        const std::size_t top = place.y + shape.rows.size ();
-        if (top < least_top) {
-          least_top = top;
-          best = place;
-        }
+    std::size_t least_top = NONE;
+    for (std::uint8_t quarters = 0; quarters < 4; ++quarters) {
+      const CellMask& shape = shapes[s][quarters];
+      if (shape.width > width || shape.rows.size () >= least_top)
+        continue;
+      CellPlace place = strip.findPlace (shape, {}, least_top - shape.rows.size ());
+      place.quarters = quarters;
+      if (const std::size_t top = place.y + shape.rows.size (); top < least_top) {
+        least_top = top;
+        places[s] = place;
       }
-      strip.occupy (shapes[s][best.quarters], best);
     }
-    places[s] = best;
+    strip.occupy (shapes[s][places[s].quarters], places[s]);
   }
   return static_cast<Index> (strip.height ());
 }
 
-// The cells that triangles touch, and all adjacent cells; so the shape begins one cell left of and
+// The cells that triangles touch, and all adjacent cells; so the array begins one cell left of and
 // below the origin. O(triangles + cells).
 // \param uv per vertex, in cells, not negative
-CellMask
-makeCellMask (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)
+CellArray
+touchedCells (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)
 {
-  // Cell (x, y) of the plane is cell (x + 1, y + 1) of the mask.
-  CellMask mask;
   Vector2d size = Vector2d::Zero ();
   for (const Vector2d& p : uv)
     size = size.cwiseMax (p);
-  const auto cellOf = [] (double x) { return static_cast<Index> (std::max (x, 0.0)); };
-  std::vector<std::vector<CellRun>> touched (cellOf (size.y ()) + std::size_t{1});
+  const auto cellOf = [] (double x) { return static_cast<Eigen::Index> (std::max (x, 0.0)); };
+  // Cell (x, y) of the plane is in row y + 1 and column x + 1.
+  CellArray touched = CellArray::Zero (cellOf (size.y ()) + 3, cellOf (size.x ()) + 3);
   for (const Triangle& t : triangles) {
     const std::array<Vector2d, 3> corners{uv[t[0]], uv[t[1]], uv[t[2]]};
     const auto [low, high] = std::minmax ({corners[0].y (), corners[1].y (), corners[2].y ()});
-    for (Index row = cellOf (low); row <= cellOf (high); ++row) {
+    for (Eigen::Index row = cellOf (low); row <= cellOf (high); ++row) {
       const auto [least, largest] =
           extentBetween (corners, static_cast<double> (row), static_cast<double> (row) + 1.0);
-      if (least <= largest) {
-        touched[row].push_back ({cellOf (least), cellOf (largest)});
-        constexpr std::size_t MANY = 64;
-        if (touched[row].size () > MANY)
-          joinRuns (touched[row]);
-      }
+      if (least <= largest)
+        touched.block (row, cellOf (least), 3, cellOf (largest) - cellOf (least) + 3) = true;
     }
   }
-  mask.rows.resize (touched.size () + 2);
-  mask.width = cellOf (size.x ()) + 3;
-  for (std::size_t row = 0; row < touched.size (); ++row) {
-    joinRuns (touched[row]);
-    for (const CellRun& run : touched[row])
-      for (std::size_t beside = row; beside <= row + 2; ++beside)
-        mask.rows[beside].push_back ({run.first, run.last + 2});
-  }
-  for (std::vector<CellRun>& row : mask.rows) {
-    joinRuns (row);
-    for (const CellRun& run : row)
-      mask.cells += run.last - run.first + 1;
+  return touched;
+}
+
+CellMask
+makeCellMask (const CellArray& taken)
+{
+  CellMask mask;
+  mask.width = static_cast<Index> (taken.cols ());
+  mask.cells = static_cast<std::size_t> (taken.count ());
+  mask.rows.resize (static_cast<std::size_t> (taken.rows ()));
+  for (std::size_t y = 0; y < mask.rows.size (); ++y) {
+    const auto isTaken = [&, row = static_cast<Eigen::Index> (y)] (Index x) {
+      return x < mask.width && taken (row, x);
+    };
+    for (Index x = 0; x < mask.width; ++x) {
+      const Index first = x;
+      while (isTaken (x))
+        ++x;
+      if (x > first)
+        mask.rows[y].emplace_back (first, x);
+    }
   }
   return mask;
 }
@@ -299,7 +252,7 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
 Vector2d
 longSideOfBox (const ChartLayout& chart)
 {
-  const std::vector<Vector2d> places = valuesAt (chart.uv, chart.loop);
+  const std::vector<Vector2d> places = valuesAt (chart.uv, chart.chart.loop);
   const std::vector<Vector2d> hull = valuesAt (places, convexHull (places));
   Vector2d best = Vector2d::UnitX ();
   double least = std::numeric_limits<double>::infinity ();
@@ -321,11 +274,11 @@ longSideOfBox (const ChartLayout& chart)
 void
 turnAndScale (ChartLayout& chart, double area, double longest)
 {
-  constexpr double SHORTEST = 1.0 / 16.0; // rounding leaves triangles of that size as they are
-  constexpr double LEAST_AREA = 1e-30;    // above zero, so that it can be scaled
+  constexpr double SHORTEST = 0.5;     // rounding leaves triangles of that size as they are
+  constexpr double LEAST_AREA = 1e-30; // above zero, so that it can be scaled
   const Vector2d up = longSideOfBox (chart), right (up.y (), -up.x ());
   double plane_area = 0.0;
-  for (const auto& [a, b, c] : chart.corners)
+  for (const auto& [a, b, c] : chart.chart.mesh.triangles)
     plane_area += 0.5 * cross (chart.uv[b] - chart.uv[a], chart.uv[c] - chart.uv[a]);
   const double scale = std::sqrt (std::max (area, LEAST_AREA) / plane_area);
   Eigen::AlignedBox2d box;
@@ -339,13 +292,13 @@ turnAndScale (ChartLayout& chart, double area, double longest)
     p = factor * p - factor * box.min ();
 }
 
-// Rotates by quarter turns anti-clockwise, in a box that stays at the origin.
+// Rotates by quarter turns anti-clockwise, in a box of whole cells that stays at the origin.
 void
 turnQuarters (std::vector<Vector2d>& uv, int quarters)
 {
   Vector2d size = Vector2d::Zero ();
   for (const Vector2d& p : uv)
-    size = size.cwiseMax (p);
+    size = size.cwiseMax (p.array ().floor ().matrix () + Vector2d::Ones ());
   for (int q = 0; q < quarters; ++q) {
     for (Vector2d& p : uv)
       p = Vector2d (size.y () - p.y (), p.x ());
@@ -375,10 +328,10 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   std::vector<TurnedMasks> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
-    std::vector<Vector2d> uv = charts[c].uv;
+    CellArray touched = touchedCells (charts[c].chart.mesh.triangles, charts[c].uv);
     for (CellMask& mask : masks[c]) {
-      mask = makeCellMask (charts[c].corners, uv);
-      turnQuarters (uv, 1);
+      mask = makeCellMask (touched);
+      touched = CellArray (touched.transpose ().rowwise ().reverse ());
     }
   });
   const auto packed = packCells (masks, limits.attempts, run);

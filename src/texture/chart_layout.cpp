@@ -6,9 +6,6 @@
 #include "core/order_statistics.h"
 #include "floater/floater_method.h"
 #include "floater/solvers/solver.h"
-#include "floater/weights.h"
-
-#include <Eigen/LU>
 
 #include <new>
 
@@ -17,45 +14,12 @@ namespace {
 constexpr int MOST_STEPS = 10;          // of the relaxation; later ones hardly lower the stretch
 constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
 
-// Neighbours of the vertices and their mean value weights.
+// Neighbours of inner vertices, and their weights.
 struct Weights
 {
   CsrLists neighbors;
   std::vector<double> values;
 };
-
-Weights
-meanValueWeights (const MeshPiece& chart)
-{
-  constexpr double SMALLEST_TANGENT = 1e-6; // of half an angle
-  const TriangleMesh& mesh = chart.mesh;
-  // Each edge ends one triangle and begins another, except at the boundary, whose vertices need no
-  // weights.
-  Weights weights{MeshRings (mesh).leaving, {}};
-  const auto tangentAt = [&] (Index t, std::uint8_t corner) {
-    const auto toCorner = [&] (std::uint8_t other) -> Vector3d {
-      const Triangle& c = mesh.triangles[t];
-      return (chart.positions[c[other]] - chart.positions[c[corner]]).normalized ();
-    };
-    const Vector3d a = toCorner (TriangleMesh::next (corner));
-    const Vector3d b = toCorner (TriangleMesh::previous (corner));
-    return std::max (halfTangent (a.cross (b).norm (), a.dot (b)), SMALLEST_TANGENT);
-  };
-  weights.values.reserve (weights.neighbors.ids.size ());
-  for (Index& id : weights.neighbors.ids) {
-    const MeshEdge edge{id / 3, static_cast<std::uint8_t> (id % 3)}, mate = mesh.mate (edge);
-    id = mesh.to (edge);
-    const double length = (chart.positions[id] - chart.positions[mesh.from (edge)]).norm ();
-    if (mate.triangle == NONE || !(length > 0.0)) {
-      weights.values.push_back (1.0);
-      continue;
-    }
-    const double sum = tangentAt (edge.triangle, TriangleMesh::next (edge.side)) +
-                       tangentAt (mate.triangle, TriangleMesh::previous (mate.side));
-    weights.values.push_back (sum / length);
-  }
-  return weights;
-}
 
 // Infinite if there is no layout, or a triangle is flipped.
 double
@@ -138,35 +102,19 @@ beginLayout (const MeshPiece& chart, const DescentLimits& limits, const RunConte
 
 // Lowers the distortion of a layout, unless that raises its stretch; sets its figures.
 void
-relax (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
-       const RunContext& run, ChartLayout& layout)
+relax (const RestShapes& rest, const DescentLimits& limits, const RunContext& run,
+       ChartLayout& layout)
 {
   layout.area = rest.area;
-  layout.stretch = meanStretch (chart, layout.uv);
+  layout.stretch = meanStretch (layout.chart, layout.uv);
   std::vector<Vector2d> uv = layout.uv;
-  descendDistortion (chart, rest, limits, run, uv);
-  if (!isLayout (chart, uv))
+  descendDistortion (layout.chart, rest, limits, run, uv);
+  if (!isLayout (layout.chart, uv))
     return;
-  if (const double stretch = meanStretch (chart, uv); stretch < layout.stretch) {
+  if (const double stretch = meanStretch (layout.chart, uv); stretch < layout.stretch) {
     layout.stretch = stretch;
     layout.uv = std::move (uv);
   }
-}
-
-// Lays one triangle out by the lengths of its edges.
-void
-layOutTriangle (const MeshPiece& chart, ChartLayout& layout)
-{
-  constexpr double LEAST_HEIGHT_ALONE = 1.0 / 16.0;
-  const Triangle& c = chart.mesh.triangles.front ();
-  const FlatTriangle flat = layFlat (
-      {chart.positions[c[0]], chart.positions[c[1]], chart.positions[c[2]]}, LEAST_HEIGHT_ALONE);
-  layout.uv.resize (3);
-  for (std::size_t i = 0; i < 3; ++i)
-    layout.uv[c[i]] = flat.corners[i];
-  layout.stretch = meanStretch (chart, layout.uv);
-  layout.area = 0.5 * flat.longest * flat.longest *
-                cross (flat.corners[1] - flat.corners[0], flat.corners[2] - flat.corners[0]);
 }
 
 } // namespace
@@ -174,20 +122,20 @@ layOutTriangle (const MeshPiece& chart, ChartLayout& layout)
 std::vector<Vector2d>
 layOutOnCircle (const MeshPiece& chart, const RunContext& run)
 {
+  const TriangleMesh& mesh = chart.mesh;
   const std::vector<Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
-  Weights weights = meanValueWeights (chart);
+  // Each edge at an inner vertex leaves it in one triangle.
+  Weights weights;
+  weights.neighbors = makeCsrLists (chart.positions.size (), [&] (const auto& emit) {
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side)
+        emit (mesh.from ({t, side}), mesh.to ({t, side}));
+  });
+  weights.values.assign (weights.neighbors.ids.size (), 1.0);
   std::vector<Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
   double stretch = meanStretch (chart, uv);
-  if (std::isinf (stretch)) {
-    // Weights of long triangles are so different that rounding merges their ends.
-    std::fill (weights.values.begin (), weights.values.end (), 1.0);
-    uv = solveWeights (chart, weights, loop_uv, run);
-    stretch = meanStretch (chart, uv);
-    if (std::isinf (stretch))
-      return {};
-  }
-  if (chart.loop.size () == chart.positions.size ())
-    return uv; // no inner vertex
+  if (std::isinf (stretch))
+    return {};
   bool goes_on = true;
   for (int step = 0; step < MOST_STEPS && goes_on; ++step) {
     evenOut (chart, uv, weights);
@@ -266,29 +214,31 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart_tr
 {
   run.poll ();
   ChartLayout layout;
-  MeshPiece chart = cutOut (triangles, chart_triangles, positions);
+  layout.chart = cutOut (triangles, chart_triangles, positions);
   layout.triangles = std::move (chart_triangles);
-  if (layout.triangles.size () == 1)
-    layOutTriangle (chart, layout);
-  else if (!chart.loop.empty ()) {
-    const RestShapes rest = makeRestShapes (chart);
-    layout.area = rest.area;
-    layout.uv = beginLayout (chart, limits, run);
-    if (!layout.uv.empty ())
-      relax (chart, rest, limits, run, layout);
+  if (layout.chart.loop.empty ())
+    return layout;
+  const RestShapes rest = makeRestShapes (layout.chart);
+  if (layout.triangles.size () == 1) {
+    const Eigen::Matrix2d edges = rest.shapes.front ().to_unit.inverse ();
+    const Triangle& corners = layout.chart.mesh.triangles.front ();
+    layout.uv.assign (3, Vector2d::Zero ());
+    layout.uv[corners[1]] = edges.col (0);
+    layout.uv[corners[2]] = edges.col (1);
   }
-  layout.points = std::move (chart.points);
-  layout.corners = std::move (chart.mesh.triangles);
-  layout.loop = std::move (chart.loop);
+  else
+    layout.uv = beginLayout (layout.chart, limits, run);
+  if (!layout.uv.empty ())
+    relax (rest, limits, run, layout);
   return layout;
 }
 
 void
-refineLayout (const std::vector<Triangle>& triangles, const Positions& positions,
-              const DescentLimits& limits, const RunContext& run, ChartLayout& layout)
+refineLayout (const Positions& positions, const DescentLimits& limits, const RunContext& run,
+              ChartLayout& layout)
 {
-  const MeshPiece chart = cutOut (triangles, layout.triangles, positions);
-  relax (chart, makeRestShapes (chart), limits, run, layout);
+  layout.chart.positions = valuesAt (positions, layout.chart.points);
+  relax (makeRestShapes (layout.chart), limits, run, layout);
 }
 
 } // namespace pcl::floater

@@ -10,19 +10,16 @@ namespace pcl::floater {
 /// A chart in the plane.
 struct ChartLayout
 {
-  std::vector<Index> triangles;  ///< of the mesh, ascending
-  std::vector<Index> points;     ///< of the mesh, ascending
-  std::vector<Triangle> corners; ///< parallel to triangles: indices of `points`
-  std::vector<Index> loop;       ///< boundary in order as indices of `points`, the chart on the
-                                 ///< left
-  std::vector<Vector2d> uv;      ///< parallel to points, of any scale; empty if the chart is no
-                                 ///< disc, or rounding failed
-  double area = 0.0;             ///< of the chart in space, with minimum heights (LEAST_HEIGHT)
-  double stretch = 1.0;          ///< mean (see StretchSums)
+  std::vector<Index> triangles; ///< of the mesh, ascending
+  MeshPiece chart;              ///< these triangles, in this order
+  std::vector<Vector2d> uv;     ///< per vertex, of any scale; empty if the chart is no disc, or
+                                ///< rounding failed
+  double area = 0.0;            ///< of the chart in space, with minimum heights (LEAST_HEIGHT)
+  double stretch = 1.0;         ///< mean (see StretchSums)
 };
 
-/// Lays the boundary on a circle by the lengths of its edges, and every inner vertex by mean value
-/// weights (Floater 2003). In exact arithmetic no triangle is flipped (Tutte 1963, Floater 1997).
+/// Lays the boundary on a circle by the lengths of its edges, and every inner vertex at the mean of its
+/// neighbours. In exact arithmetic no triangle is flipped (Tutte 1963, Floater 1997).
 /// Then lowers the stretch: divides weights by the stretch around the neighbour (Yoshizawa,
 /// Belyaev, Seidel 2004) while the stretch falls, which keeps them positive. One sparse linear
 /// system for each step, some 5 in total.
@@ -40,10 +37,9 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& 
 
 /// Lays a chart out without flipped triangles, and with a simple boundary: no point of the plane is
 /// covered twice. Starts with the projection along the mean normal, untangled if it has small
-/// defects; otherwise on a circle (layOutOnCircle). Then lowers the distortion (descendDistortion).
-/// Both properties are tested exactly. Takes 10 microseconds per triangle from a projection, and
-/// some 100 from a circle. One triangle keeps the lengths of its edges, but gets at least a sixteenth
-/// of its length as its height, as rounding may leave nothing else.
+/// defects, or else on a circle (layOutOnCircle); one triangle with its shape in space. Then lowers the distortion
+/// (descendDistortion). Both properties are tested exactly. Takes 10 microseconds per triangle from a
+/// projection, and some 100 from a circle.
 /// \param triangles of the mesh
 /// \param chart     triangles of the chart, ascending
 /// \param positions of the points of the mesh
@@ -55,7 +51,7 @@ layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart,
 /// noise. Keeps the coordinates if that does not lower its stretch.
 /// \param[in,out] layout with coordinates; its figures are then for these positions
 void
-refineLayout (const std::vector<Triangle>& triangles, const Positions& positions,
-              const DescentLimits& limits, const RunContext& run, ChartLayout& layout);
+refineLayout (const Positions& positions, const DescentLimits& limits, const RunContext& run,
+              ChartLayout& layout);
 
 } // namespace pcl::floater

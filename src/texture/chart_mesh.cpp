@@ -58,46 +58,33 @@ MeshRings::MeshRings (const TriangleMesh& mesh)
   });
 }
 
-FlatTriangle
-layFlat (const std::array<Vector3d, 3>& place, double least_height)
-{
-  FlatTriangle flat{{}, -1.0};
-  std::size_t apex = 0; // opposite to the longest edge
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double length = (place[(i + 2) % 3] - place[(i + 1) % 3]).norm ();
-    if (length > flat.longest) {
-      flat.longest = length;
-      apex = i;
-    }
-  }
-  const std::size_t from = (apex + 1) % 3, to = (apex + 2) % 3;
-  const double scale = flat.longest > 0.0 ? 1.0 / flat.longest : 0.0;
-  const Vector3d along = scale * (place[to] - place[from]);
-  const Vector3d up = scale * (place[apex] - place[from]);
-  flat.corners[from] = Vector2d::Zero ();
-  flat.corners[to] = Vector2d::UnitX ();
-  flat.corners[apex] = {up.dot (along), std::max (along.cross (up).norm (), least_height)};
-  return flat;
-}
-
 RestShapes
 makeRestShapes (const MeshPiece& chart)
 {
   RestShapes result;
-  std::vector<FlatTriangle> all;
-  all.reserve (chart.mesh.triangles.size ());
   double longest = 0.0;
+  for (const Triangle& t : chart.mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = std::max (longest,
+                          (chart.positions[t[(i + 1) % 3]] - chart.positions[t[i]]).squaredNorm ());
+  const double shortest = longest > 0.0 ? LEAST_HEIGHT * std::sqrt (longest) : 1.0;
+  result.shapes.reserve (chart.mesh.triangles.size ());
   for (const Triangle& t : chart.mesh.triangles) {
-    all.push_back (layFlat ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
-                            LEAST_HEIGHT));
-    longest = std::max (longest, all.back ().longest);
-  }
-  const double least = longest > 0.0 ? LEAST_HEIGHT * longest : 1.0;
-  result.shapes.reserve (all.size ());
-  for (const FlatTriangle& flat : all) {
+    const auto edgeAcross = [&] (std::size_t corner) -> Vector3d {
+      return chart.positions[t[(corner + 2) % 3]] - chart.positions[t[(corner + 1) % 3]];
+    };
+    std::size_t apex = 0; // opposite to the longest edge, which comes to lie on the first axis
+    for (const std::size_t i : {1U, 2U})
+      if (edgeAcross (i).squaredNorm () > edgeAcross (apex).squaredNorm ())
+        apex = i;
+    const Vector3d base = edgeAcross (apex), up = -edgeAcross ((apex + 2) % 3);
+    const double length = std::max (base.norm (), shortest);
+    std::array<Vector2d, 3> corners{Vector2d::Zero (), Vector2d::Zero (), Vector2d::Zero ()};
+    corners[(apex + 2) % 3] = {length, 0.0};
+    corners[apex] = {up.dot (base) / length,
+                     std::max (base.cross (up).norm () / length, LEAST_HEIGHT * length)};
     Eigen::Matrix2d edges;
-    edges << flat.corners[1] - flat.corners[0], flat.corners[2] - flat.corners[0];
-    edges *= std::max (flat.longest, least);
+    edges << corners[1] - corners[0], corners[2] - corners[0];
     result.shapes.push_back ({edges.inverse (), 0.5 * edges.determinant ()});
     result.area += result.shapes.back ().area;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chart as a mesh of its own, what is around its points, the shapes of its triangles, and their stretch.
+// A chart as a mesh of its own, the shapes of its triangles, and their stretch.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -46,18 +46,6 @@ struct MeshRings
     return sum / static_cast<double> (neighbors.row (p).size ());
   }
 };
-
-/// A triangle in the plane, anti-clockwise, with its longest edge on the first axis. Lengths are
-/// relative to that edge.
-struct FlatTriangle
-{
-  std::array<Vector2d, 3> corners;
-  double longest; ///< of its edges in space
-};
-
-/// \param least_height of the triangle; thinner ones get it
-FlatTriangle
-layFlat (const std::array<Vector3d, 3>& place, double least_height);
 
 /// A triangle laid flat: map from the edges at its first corner to the unit vectors.
 struct RestShape

@@ -122,11 +122,12 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
     Layouts parts, finished;
     by_smooth.layOutParts (std::move (first), parts);
     for (ChartLayout& chart : parts) {
-      const auto moved = std::count_if (chart.points.begin (), chart.points.end (),
+      const auto moved = std::count_if (chart.chart.points.begin (), chart.chart.points.end (),
                                         [&] (Index p) { return smooth[p] != positions[p]; });
-      const auto share = static_cast<double> (moved) / static_cast<double> (chart.points.size ());
+      const auto share =
+          static_cast<double> (moved) / static_cast<double> (chart.chart.points.size ());
       if (moved > 0)
-        refineLayout (mesh.triangles, positions, descent, within, chart);
+        refineLayout (positions, descent, within, chart);
       const double most = share > limits.noisy ? limits.wrong : limits.too_much;
       ChartLayout other;
       if (moved > 0 && chart.stretch > std::max (most, largest_stretch))
@@ -155,7 +156,7 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
     const ChartCutter by_true{mesh, positions, ANY_STRETCH, whole, within};
     layOutEach (listsOf (findComponents (mesh, run)), [&] (const std::vector<Index>& triangles) {
       ChartLayout disc = by_smooth.layOut (triangles);
-      if (disc.loop.empty ())
+      if (disc.chart.loop.empty ())
         return Layouts{}; // no disc
       if (disc.uv.empty ())
         disc = by_true.layOut (triangles);
@@ -206,7 +207,7 @@ takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std
 {
   CsrLists of_point = makeCsrLists (points, [&charts] (const auto& emit) {
     for (const ChartLayout& chart : charts)
-      for (const Index p : chart.points)
+      for (const Index p : chart.chart.points)
         emit (p, p);
   });
   result.points = std::move (of_point.ids);
@@ -216,9 +217,9 @@ takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std
   for (std::size_t c = 0; c < charts.size (); ++c) {
     const ChartLayout& chart = charts[c];
     std::vector<Index> numbers;
-    numbers.reserve (chart.points.size ());
-    for (std::size_t i = 0; i < chart.points.size (); ++i) {
-      numbers.push_back (of_point.offsets[chart.points[i]]++);
+    numbers.reserve (chart.chart.points.size ());
+    for (std::size_t i = 0; i < chart.chart.points.size (); ++i) {
+      numbers.push_back (of_point.offsets[chart.chart.points[i]]++);
       result.coordinates[numbers.back ()] =
           chart.uv[i].cast<float> ().cwiseMax (0.0F).cwiseMin (1.0F);
     }
@@ -226,7 +227,7 @@ takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std
       const Index t = chart.triangles[i];
       result.charts[t] = static_cast<Index> (c);
       for (std::size_t corner = 0; corner < 3; ++corner)
-        result.corners[t][corner] = numbers[chart.corners[i][corner]];
+        result.corners[t][corner] = numbers[chart.chart.mesh.triangles[i][corner]];
     }
   }
 }

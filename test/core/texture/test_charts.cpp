@@ -133,15 +133,15 @@ TEST (ChartLayout, RefinedForOtherPositions)
   const Mesh sheet = samples::sheet (10);
   ChartLayout layout = layOut (sheet);
   const Plane before = layout.uv;
-  refineLayout (sheet.triangles, sheet.positions, {}, 1, layout); // which cannot be better
+  refineLayout (sheet.positions, {}, 1, layout); // which cannot be better
   EXPECT_EQ (layout.uv, before);
   EXPECT_NEAR (layout.stretch, 1.0, 1e-6);
   Positions longer = sheet.positions;
   for (Eigen::Vector3d& p : longer)
     p.x () += std::max (0.0, p.x () - 0.5);
-  refineLayout (sheet.triangles, longer, {}, 1, layout);
+  refineLayout (longer, {}, 1, layout);
   EXPECT_NEAR (layout.stretch, 1.0, 0.01);
-  EXPECT_TRUE (isUpright (layout.corners, layout.uv));
+  EXPECT_TRUE (isUpright (layout.chart.mesh.triangles, layout.uv));
 }
 
 // A flat spiral staircase of one and a half turns: its projection lies above itself. A rolled sheet
@@ -160,8 +160,8 @@ TEST (ChartLayout, NothingLiesAboveItself)
   limits.most_on_circle = roll.triangles.size ();
   for (const ChartLayout& layout : {layOut (stairs), layOut (roll, limits)}) {
     ASSERT_FALSE (layout.uv.empty ());
-    EXPECT_TRUE (isSimple (layout.loop, layout.uv));
-    EXPECT_TRUE (isUpright (layout.corners, layout.uv));
+    EXPECT_TRUE (isSimple (layout.chart.loop, layout.uv));
+    EXPECT_TRUE (isUpright (layout.chart.mesh.triangles, layout.uv));
   }
   --limits.most_on_circle;
   EXPECT_TRUE (layOut (roll, limits).uv.empty ());
