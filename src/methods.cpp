@@ -246,11 +246,9 @@ knownViewpoint (const Points& points, const Request& request)
   const bool is_given = options.use == ViewUse::GIVEN;
   const Viewpoint viewpoint{
       points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
-  const EvidenceLimits& evidence = request.limits.view.evidence;
-  const Sight sight = is_given
-                          ? Sight::CERTAIN
-                          : sightFrom (points, viewpoint, isSensorKnown (request.sensor_origin),
-                                       evidence, request.run);
+  const Sight sight =
+      is_given ? Sight::CERTAIN
+               : sightFrom (points, viewpoint, isSensorKnown (request.sensor_origin), request.run);
   if (sight == Sight::NO)
     return {};
   return Viewpoint{viewpoint.place, false, sight == Sight::POSSIBLE};
@@ -265,10 +263,8 @@ std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
 {
   const RunContext& run = request.run;
-  const SearchLimits& search = request.limits.view.search;
-  const EvidenceLimits& evidence = request.limits.view.evidence;
   const auto isSeen = [&] (const Viewpoint& viewpoint) {
-    return sightFrom (points, viewpoint, false, evidence, run) != Sight::NO;
+    return sightFrom (points, viewpoint, false, run) != Sight::NO;
   };
   if (isSeen (given))
     return {};
@@ -277,11 +273,9 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
     return of_file;
   const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
   const RowOf row_of = rowsBeside (points, planes, starSettings (request), request.limits.planes);
-  const std::vector<AreaSample> samples =
-      takePatchSamples (points.positions, row_of, search.samples);
+  const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
   for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
-    if (const std::optional<Viewpoint> found =
-            findViewpoint (points, row_of, samples, reason, search, evidence, run))
+    if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))
       return found;
   return {};
 }
@@ -290,13 +284,13 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
 // what bears the sensor, which are no part of the scene.
 std::size_t
 countContradictions (const Points& points, const Viewpoint& viewpoint, const ViewSurface& surface,
-                     const std::vector<Index>& unused, const EvidenceLimits& limits)
+                     const std::vector<Index>& unused)
 {
   std::vector<double> depths;
   for (const Vector3d& position : points.positions)
     depths.push_back (rayTo (position, viewpoint).depth);
-  const double least = viewpoint.is_far ? -std::numeric_limits<double>::infinity ()
-                                        : limits.at_sensor * median (depths);
+  const double least =
+      viewpoint.is_far ? -std::numeric_limits<double>::infinity () : AT_SENSOR * median (depths);
   return static_cast<std::size_t> (std::count_if (unused.begin (), unused.end (), [&] (Index p) {
     return surface.is_at_step[p] != 0 && rayTo (points.positions[p], viewpoint).depth >= least;
   }));
@@ -343,10 +337,19 @@ std::optional<Problem>
 reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
                  Result& result)
 {
+  // Share of the points; if more are in no triangle, at depth steps, the cloud is not a scan of
+  // surfaces from there. Of a scan by 16 rings, 0.06 are: things as high as one ring are no
+  // surface; of scans from a moving car, up to 0.10; of a raster of heights with missing ones, 0.2.
+  constexpr double UNUSED = 0.15;
+  // The same, of all unused points, also those alone in gaps. Measured: at most 0.15 in generated
+  // scans, 0.21 in a real one of 32 rings; 0.37 in profiles far apart.
+  constexpr double UNUSED_IN_ALL = 0.25;
+  // UNUSED if only the file or outlines tell the viewpoint. Scans from several places, of which it
+  // tells one, have 0.013 to 0.035.
+  constexpr double UNUSED_IF_TOLD = 0.01;
   const Options& options = request.options;
-  const ViewLimits& limits = request.limits.view;
   ViewSurface surface =
-      makeViewSurface (points, viewpoint, {options, limits, request.limits.surface},
+      makeViewSurface (points, viewpoint, {options, request.limits.view, request.limits.surface},
                        facingHints (points, request), request.run);
   LocalGeometry geometry;
   geometry.spacing = std::move (surface.spacing);
@@ -355,13 +358,11 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   const auto isMoreThan = [&points] (double share, std::size_t count) {
     return static_cast<double> (count) > share * static_cast<double> (points.size ());
   };
-  const double most_unused =
-      viewpoint.is_only_told ? limits.largest_unused_if_told : limits.largest_unused_share;
+  const double most_unused = viewpoint.is_only_told ? UNUSED_IF_TOLD : UNUSED;
   const bool is_doubtful = isMoreThan (most_unused, found.unused.size ());
   if (!is_given && is_doubtful &&
-      (isMoreThan (limits.largest_unused_in_all, found.unused.size ()) ||
-       isMoreThan (most_unused, countContradictions (points, viewpoint, surface, found.unused,
-                                                     limits.evidence))))
+      (isMoreThan (UNUSED_IN_ALL, found.unused.size ()) ||
+       isMoreThan (most_unused, countContradictions (points, viewpoint, surface, found.unused))))
     return {};
   if (surface.mesh.triangles.empty ())
     return Problem{RunStatus::INVALID_OPTION,

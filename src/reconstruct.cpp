@@ -68,11 +68,9 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   LocalPlanes planes =
       known != nullptr ? known->planes ()
                        : beginPlanes (points, std::move (neighbors), std::move (tree), stars, run);
-  const SearchLimits& search = limits.view.search;
   std::vector<AreaSample> samples;
   const auto reconstructFrom = [&] (const RowOf& row_of, SearchReason reason) {
-    const std::optional<Viewpoint> viewpoint =
-        findViewpoint (points, row_of, samples, reason, search, limits.view.evidence, run);
+    const std::optional<Viewpoint> viewpoint = findViewpoint (points, row_of, samples, reason, run);
     return viewpoint ? reconstructView (points, *viewpoint, request, result) : std::nullopt;
   };
   std::optional<Stars> begun;
@@ -80,7 +78,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     begun = known->begunStars ();
   if (may_be_seen) {
     const RowOf row_of = rowsBeside (points, planes, stars, limits.planes);
-    samples = takePatchSamples (points.positions, row_of, search.samples);
+    samples = takePatchSamples (points.positions, row_of);
     if (const std::optional<Problem> problem = reconstructFrom (row_of, SearchReason::UNEVEN))
       return *problem;
   }

@@ -8,6 +8,10 @@
 
 namespace pcl::floater {
 namespace {
+// Cells along each axis of a grid of viewpoints over twice the bounding box, and of one over twice
+// the box of half of the samples: points are dense around a sensor low above wide ground.
+constexpr std::size_t CELLS = 12;
+
 // Logarithm of the ratio of the upper to the lower quartile.
 // \param[in,out] values at least one, all positive; their order changes
 double
@@ -57,14 +61,13 @@ middleBox (const std::vector<AreaSample>& samples)
 
 // The middles of the cells of a grid over twice a box.
 void
-addGrid (const Eigen::AlignedBox3d& box, std::size_t n, std::vector<RatedViewpoint>& places)
+addGrid (const Eigen::AlignedBox3d& box, std::vector<RatedViewpoint>& places)
 {
-  const auto cells = static_cast<double> (n);
-  for (std::size_t i = 0; i < n * n * n; ++i) {
-    const std::size_t column = i / n % n, layer = i / (n * n);
-    const Eigen::Array3d cell (static_cast<double> (i % n), static_cast<double> (column),
+  for (std::size_t i = 0; i < CELLS * CELLS * CELLS; ++i) {
+    const std::size_t column = i / CELLS % CELLS, layer = i / (CELLS * CELLS);
+    const Eigen::Array3d cell (static_cast<double> (i % CELLS), static_cast<double> (column),
                                static_cast<double> (layer));
-    const Vector3d offset = (2.0 * (cell + 0.5) / cells - 1.0).matrix ();
+    const Vector3d offset = (2.0 * (cell + 0.5) / static_cast<double> (CELLS) - 1.0).matrix ();
     places.push_back ({0.0, {box.center () + offset.cwiseProduct (box.sizes ()), false}});
   }
 }
@@ -72,15 +75,15 @@ addGrid (const Eigen::AlignedBox3d& box, std::size_t n, std::vector<RatedViewpoi
 // Viewpoints on grids over the boxes of all and of half of the samples, and far ones, the best ones first.
 std::vector<RatedViewpoint>
 startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d& box,
-                const Eigen::AlignedBox3d& middle, bool may_be_far, const AreaSearchLimits& limits,
-                const RunContext& run)
+                const Eigen::AlignedBox3d& middle, bool may_be_far, const RunContext& run)
 {
+  constexpr std::size_t DIRECTIONS = 100; // of farther viewpoints: 20 degrees apart
   std::vector<RatedViewpoint> places;
-  addGrid (box, limits.cells, places);
-  addGrid (middle, limits.cells, places);
+  addGrid (box, places);
+  addGrid (middle, places);
   // On spheres around the box, the last of infinite radius.
-  for (std::size_t i = 0; i < limits.directions; ++i) {
-    const Vector3d direction = spiralDirection (i, limits.directions);
+  for (std::size_t i = 0; i < DIRECTIONS; ++i) {
+    const Vector3d direction = spiralDirection (i, DIRECTIONS);
     for (const double distance : {1.5, 3.0, 6.0})
       places.push_back (
           {0.0, {box.center () + distance * box.sizes ().norm () * direction, false}});
@@ -97,17 +100,17 @@ startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3
 } // namespace
 
 std::vector<RayPatch>
-findPointPatches (const Positions& positions, const RowOf& row_of, std::size_t count,
-                  std::size_t size)
+findPointPatches (const Positions& positions, const RowOf& row_of, std::size_t count)
 {
   std::vector<RayPatch> patches (count);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t seed = (2 * k + 1) * positions.size () / (2 * count);
     RayPatch& patch = patches[k];
     patch.assign (1, static_cast<Index> (seed));
-    for (std::size_t i = 0; i < patch.size () && patch.size () < size; ++i)
+    for (std::size_t i = 0; i < patch.size () && patch.size () < PATCH_POINTS; ++i)
       for (const Index q : row_of (patch[i]))
-        if (patch.size () < size && std::find (patch.begin (), patch.end (), q) == patch.end ())
+        if (patch.size () < PATCH_POINTS &&
+            std::find (patch.begin (), patch.end (), q) == patch.end ())
           patch.push_back (q);
     const auto distance = [&] (Index p) { return (positions[p] - positions[seed]).squaredNorm (); };
     std::stable_sort (patch.begin (), patch.end (),
@@ -117,11 +120,10 @@ findPointPatches (const Positions& positions, const RowOf& row_of, std::size_t c
 }
 
 std::vector<AreaSample>
-takePatchSamples (const Positions& positions, const RowOf& row_of, std::size_t count)
+takePatchSamples (const Positions& positions, const RowOf& row_of)
 {
-  constexpr std::size_t SIZE = 60; // points; noise of a spacing is a quarter of their radius
   std::vector<AreaSample> samples;
-  for (const RayPatch& patch : findPointPatches (positions, row_of, count, SIZE)) {
+  for (const RayPatch& patch : findPointPatches (positions, row_of, AREA_SAMPLES)) {
     PlaneFit fit;
     for (const Index p : patch)
       fit.add (positions[p]);
@@ -151,8 +153,16 @@ spreadOfAreas (const std::vector<AreaSample>& samples)
 
 std::vector<RatedViewpoint>
 searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d& box,
-               bool may_be_far, const AreaSearchLimits& limits, const RunContext& run)
+               bool may_be_far, const RunContext& run)
 {
+  // Largest share of the spread of the areas left at the best viewpoint; with more, areas do not
+  // come from a view. In scans with noise of 3 spacings, 0.7 is left.
+  constexpr double EXPLAINED = 0.8;
+  // Share of what the best viewpoint explains; those that explain less are left out: on a plane,
+  // many explain as much.
+  constexpr double AS_GOOD = 0.75;
+  constexpr std::size_t STARTS = 24;       // best viewpoints, from which descents start
+  constexpr std::size_t EVALUATIONS = 200; // in each descent
   constexpr double SMALLEST_STEP = 4e-3;
   constexpr double NEARER = 0.9; // of the spread of areas from far away
   // A quarter of the samples gives the spread to twice the error.
@@ -162,23 +172,23 @@ searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d
   for (std::size_t i = 0; i < samples.size (); i += EVERY)
     few.push_back (samples[i]);
   std::vector<RatedViewpoint> places =
-      startingPlaces (few, box, middleBox (samples), may_be_far, limits, run);
-  if (places.front ().cost > (1.0 + ERROR) * limits.explained * spreadOfAreas (few))
+      startingPlaces (few, box, middleBox (samples), may_be_far, run);
+  if (places.front ().cost > (1.0 + ERROR) * EXPLAINED * spreadOfAreas (few))
     return {};
-  const double cell = 2.0 * box.sizes ().maxCoeff () / static_cast<double> (limits.cells);
-  places = keepApart (places, 2.0 * cell, limits.starts);
+  const double cell = 2.0 * box.sizes ().maxCoeff () / static_cast<double> (CELLS);
+  places = keepApart (places, 2.0 * cell, STARTS);
   parallelTasks (run, places.size (), [&] (std::size_t k) {
     std::vector<double> angles;
     const auto cost = [&] (const Viewpoint& v) { return areaSpread (samples, v, angles); };
-    places[k] = patternSearch (places[k].viewpoint, cell, SMALLEST_STEP, box.center (),
-                               limits.evaluations, cost);
+    places[k] =
+        patternSearch (places[k].viewpoint, cell, SMALLEST_STEP, box.center (), EVALUATIONS, cost);
   });
   places = keepApart (places, 4.0 * SMALLEST_STEP, places.size ());
   std::stable_sort (places.begin (), places.end (), isCheaper);
   const double spread = spreadOfAreas (samples);
-  if (places.front ().cost > limits.explained * spread)
+  if (places.front ().cost > EXPLAINED * spread)
     return {};
-  const double most = spread - limits.as_good * (spread - places.front ().cost);
+  const double most = spread - AS_GOOD * (spread - places.front ().cost);
   const auto isWorse = [&] (const RatedViewpoint& one) {
     std::vector<double> angles;
     return one.cost > most ||

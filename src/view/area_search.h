@@ -12,11 +12,9 @@ namespace pcl::floater {
 /// Patches around points that are spread evenly over their order, over their neighbours: also across
 /// rows that are far apart. Parallel rays to a patch are near each other for any direction.
 /// \param row_of neighbours of a point, nearest first
-/// \param size points of a patch; fewer if there are no more around
-/// \return the points of each patch, sorted by distance to the first one
+/// \return PATCH_POINTS of each, fewer if there are no more around, sorted by distance to the first one
 std::vector<RayPatch>
-findPointPatches (const Positions& positions, const RowOf& row_of, std::size_t count,
-                  std::size_t size);
+findPointPatches (const Positions& positions, const RowOf& row_of, std::size_t count);
 
 /// A point and the area around it.
 struct AreaSample
@@ -25,10 +23,13 @@ struct AreaSample
   double area; ///< of the patch around it, in any unit
 };
 
-/// Area samples of patches of points: noise and rows spoil the stars of single points. O(count).
+/// Sampled areas; the error of the spread of so many is 6 %.
+constexpr std::size_t AREA_SAMPLES = 500;
+
+/// Area samples of patches of points: noise and rows spoil the stars of single points. O(1).
 /// \param row_of see findPointPatches
 std::vector<AreaSample>
-takePatchSamples (const Positions& positions, const RowOf& row_of, std::size_t count);
+takePatchSamples (const Positions& positions, const RowOf& row_of);
 
 /// A viewpoint and its cost.
 struct RatedViewpoint
@@ -111,23 +112,6 @@ patternSearch (const Viewpoint& start, double step, double smallest_step, const 
   return best;
 }
 
-/// Size of the search, and its thresholds.
-struct AreaSearchLimits
-{
-  double explained =
-      0.8; ///< largest share of the spread of the areas (logarithm of the ratio of the
-           ///< quartiles) left at the best viewpoint; with more, areas do not come
-           ///< from a view. In scans with noise of 3 spacings, 0.7 is left
-  double as_good = 0.75; ///< share of what the best viewpoint explains; those that explain less are
-                         ///< left out: on a plane, many explain as much
-  /// along each axis of a grid of viewpoints over twice the bounding box, and of one over twice the
-  /// box of half of the samples: points are dense around a sensor low above wide ground
-  std::size_t cells = 12;
-  std::size_t directions = 100;  ///< of farther viewpoints: 20 degrees apart
-  std::size_t starts = 24;       ///< best viewpoints, from which descents start
-  std::size_t evaluations = 200; ///< in each descent
-};
-
 /// Spread of the areas without any viewpoint.
 double
 spreadOfAreas (const std::vector<AreaSample>& samples);
@@ -137,6 +121,6 @@ spreadOfAreas (const std::vector<AreaSample>& samples);
 /// \param may_be_far directions of parallel rays are tried, too
 std::vector<RatedViewpoint>
 searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d& box,
-               bool may_be_far, const AreaSearchLimits& limits, const RunContext& run);
+               bool may_be_far, const RunContext& run);
 
 } // namespace pcl::floater

@@ -8,6 +8,50 @@
 
 namespace pcl::floater {
 namespace {
+// Degrees. An edge that is not steep is a step if the surface would bend by this at both ends, in
+// opposite directions: two sheets that face the sensor, one behind the other by more than the width
+// of the edge.
+constexpr double TURN = 45.0;
+// A step exceeds this many times the noise (see findDepthSteps). 1 % of Gaussian noise does, but in
+// isolated edges.
+constexpr double NOISE = 2.0;
+// The same for edges that are not steep, nearly all edges: five standard deviations of Gaussian
+// noise, one edge of a million.
+constexpr double SHARP_NOISE = 4.0;
+// An edge is on one surface if an extrapolation from one of its ends is as steep, up to this
+// factor. At a crease the edge is shorter than the extrapolation from the steeper side: factor 1,
+// and as much for curvature.
+constexpr double CONTINUED = 2.0;
+// Depth over width of an edge, above which a surface is seen at less than 6 degrees, and returns
+// hardly any light; and CONTINUED for these: only a plane may be seen so flat. Rings on three
+// things at three distances look like a slope.
+constexpr double GRAZING = 10.0, CONTINUED_GRAZING = 1.25;
+// Largest sum of the weights of an extrapolation. It is 3 on a raster, and up to 7 where rays are
+// lost; from three points of one ring to the next ring it is thousands, and tells nothing.
+constexpr double MOST_WEIGHT = 20.0;
+// Where two surfaces meet: length of an edge over the length to which either is extrapolated;
+// above, it is a step. A surface seen at less than 6 degrees returns hardly any light, and is
+// sampled ten times more coarsely than one seen face on.
+constexpr double JOINT = 10.0;
+// Edges of about the same depth, among which the noise is measured; their 80 % quantile has an
+// error of 3 %.
+constexpr std::size_t EDGES_PER_BIN = 2000;
+// On either side; the noise is the median over all.
+constexpr std::size_t BINS_BESIDE = 4;
+// Largest ratio of the noise to that of edges farther away, in units of depth: it does not fall
+// with depth in any sensor. 1, and as much as the curvature of near things and the error of each
+// may add.
+constexpr double NEARER_NOISE = 3.0;
+// Of a Gaussian, at 1.3 standard deviations. More than 80 % of the edges of a scene are on surfaces.
+constexpr double NOISE_QUANTILE = 0.8;
+// Of the depth, or of the span of depths for parallel rays; smaller deviations are rounding, as no
+// sensor is so precise.
+constexpr double ROUNDING = 2e-5;
+// Quantile of the deviations above rounding that is one quantum.
+constexpr double STEP_QUANTILE = 0.2;
+// Of the depth; coarsest rounding of sensors.
+constexpr double LARGEST_QUANTUM = 0.02;
+
 // Extrapolation of the surface from the first point of an edge to the second.
 struct Extension
 {
@@ -26,10 +70,8 @@ struct StepEdge
 class StepFinder
 {
 public:
-  StepFinder (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
-              const RunContext& run)
-      : view_ (view), rays_ (rays), limits_ (limits), run_ (run),
-        largest_cosine_ (std::cos (limits.turn * DEGREE))
+  StepFinder (const TriangleMesh& view, const Rays& rays, const RunContext& run)
+      : view_ (view), rays_ (rays), run_ (run)
   {
   }
 
@@ -42,7 +84,7 @@ public:
     continueSurfaces ();
     findEdges ();
     Flags is_step (view_.triangles.size (), 0);
-    const std::size_t bins = std::max<std::size_t> (1, edges_.size () / limits_.edges_per_bin);
+    const std::size_t bins = std::max<std::size_t> (1, edges_.size () / EDGES_PER_BIN);
     const auto binBegin = [&] (std::size_t b) { return b * edges_.size () / bins; };
     std::vector<double> noises (bins);
     Flags is_rounded (bins);
@@ -60,19 +102,18 @@ public:
         continue;
       // Before a background, most edges of near things may be steps.
       const double depth = static_cast<double> (edges_[binBegin (b)].depth);
-      usual_noises[b] = std::min (usual_noises[b], limits_.nearer_noise * farther / depth);
+      usual_noises[b] = std::min (usual_noises[b], NEARER_NOISE * farther / depth);
       farther = std::min (farther, usual_noises[b] * depth);
     }
     Flags is_step_edge (edges_.size (), 0);
     parallelTasks (run_, bins, [&] (std::size_t b) {
       const double noise = usual_noises[b];
       // A bin between two steps of quantized depths does not show the size of a step.
-      const double sharp_noise = std::max (limits_.sharp_noise * noise,
-                                           is_rounded[b] != 0 ? limits_.largest_quantum : 0.0);
+      const double sharp_noise =
+          std::max (SHARP_NOISE * noise, is_rounded[b] != 0 ? LARGEST_QUANTUM : 0.0);
       for (std::size_t e = binBegin (b); e < binBegin (b + 1); ++e) {
         const double unit = unitAt (static_cast<double> (edges_[e].depth));
-        is_step_edge[e] =
-            isStep (edges_[e].edge, limits_.noise * noise * unit, sharp_noise * unit) ? 1 : 0;
+        is_step_edge[e] = isStep (edges_[e].edge, NOISE * noise * unit, sharp_noise * unit) ? 1 : 0;
       }
     });
     for (std::size_t e = 0; e < edges_.size (); ++e) {
@@ -118,7 +159,7 @@ private:
         const auto level = [&] (std::size_t i) {
           return rays_.levels[around[i]] - rays_.levels[p];
         };
-        if (1.0 + a + b > limits_.most_weight)
+        if (1.0 + a + b > MOST_WEIGHT)
           break;
         const std::uint8_t side = TriangleMesh::previous (view_.sideOf (fan[e], p));
         continuations_[numberOf ({fan[e], side})] = {
@@ -181,8 +222,8 @@ private:
   // edges of its bin may be steps.
   double medianAround (const std::vector<double>& noises, std::size_t bin) const
   {
-    const std::size_t first = bin - std::min (bin, limits_.bins_beside);
-    const std::size_t last = std::min (noises.size (), bin + limits_.bins_beside + 1);
+    const std::size_t first = bin - std::min (bin, BINS_BESIDE);
+    const std::size_t last = std::min (noises.size (), bin + BINS_BESIDE + 1);
     std::vector<double> window (noises.begin () + static_cast<std::ptrdiff_t> (first),
                                 noises.begin () + static_cast<std::ptrdiff_t> (last));
     return median (window);
@@ -197,11 +238,11 @@ private:
         deviations.push_back (edges_[e].deviation);
     if (deviations.empty ())
       return 0.0;
-    const auto noise = static_cast<double> (quantile (deviations, limits_.noise_quantile));
+    const auto noise = static_cast<double> (quantile (deviations, NOISE_QUANTILE));
     // Inverse depth per relative depth.
     const double unit = unitAt (static_cast<double> (edges_[first].depth));
     const double usual = static_cast<double> (median (deviations));
-    is_rounded = usual > limits_.rounding * unit ? 0 : 1;
+    is_rounded = usual > ROUNDING * unit ? 0 : 1;
     if (is_rounded == 0)
       return noise / unit;
     constexpr double ABOVE = 20.0; // times the median: more is not rounding
@@ -214,8 +255,8 @@ private:
     if (deviations.size () < FEWEST)
       return noise / unit;
     // The weights of a step are 2 or more.
-    const auto step = static_cast<double> (quantile (deviations, limits_.step_quantile));
-    return std::max (noise / unit, std::min (step / unit, 0.5 * limits_.largest_quantum));
+    const auto step = static_cast<double> (quantile (deviations, STEP_QUANTILE));
+    return std::max (noise / unit, std::min (step / unit, 0.5 * LARGEST_QUANTUM));
   }
 
   // Position on a ray at an inverse depth, from the sensor. Non-positive ones are far away.
@@ -264,9 +305,8 @@ private:
     const double width = rays_.distance (p, q) *
                          (rays_.are_parallel ? 1.0 : std::min (rays_.depths[p], rays_.depths[q]));
     const double rise = std::abs (rays_.depths[p] - rays_.depths[q]);
-    const bool is_steep = rise > limits_.slope * width;
-    const double continued =
-        rise > limits_.grazing * width ? limits_.continued_grazing : limits_.continued;
+    const bool is_steep = rise > STEEP * width;
+    const double continued = rise > GRAZING * width ? CONTINUED_GRAZING : CONTINUED;
     const double least = is_steep ? steep_noise : sharp_noise;
     const auto isNoise = [&] (const Extension& c) {
       return c.weight > 0.0F && std::abs (change - static_cast<double> (c.change)) <=
@@ -285,8 +325,8 @@ private:
       return !isKnown (end) ||
              (told (end) * change > 0.0 &&
               std::abs (told (end)) >=
-                  steep_noise / limits_.noise * static_cast<double> (both[end].weight) &&
-              riseTo (end == 0 ? p : q, end == 0 ? told (0) : -told (1)) > limits_.slope * width);
+                  steep_noise / NOISE * static_cast<double> (both[end].weight) &&
+              riseTo (end == 0 ? p : q, end == 0 ? told (0) : -told (1)) > STEEP * width);
     };
     if (is_steep && !goesOn (0) && !goesOn (1))
       return !(mayRecede (0) && mayRecede (1) && (isKnown (0) || isKnown (1)));
@@ -296,17 +336,16 @@ private:
     const EdgeVectors from_q = vectorsFrom (q, p, rays_.levels[q] - told (1));
     if (is_steep)
       return from_p.edge.norm () >
-             limits_.joint * std::min (from_p.straight.norm (), from_q.straight.norm ());
+             JOINT * std::min (from_p.straight.norm (), from_q.straight.norm ());
     const bool meet_between = (change > told (0)) != (change > told (1));
     return !meet_between && turnsSharply (from_p) && turnsSharply (from_q);
   }
 
   const TriangleMesh& view_;
   const Rays& rays_;
-  const StepLimits& limits_;
   RunContext run_;
   double span_ = 1.0; // of the depths
-  double largest_cosine_;
+  double largest_cosine_ = std::cos (TURN * DEGREE);
   std::vector<Extension> continuations_; // of each edge, by 3 triangle + side, from its first end
   std::vector<StepEdge> edges_;
 };
@@ -314,10 +353,9 @@ private:
 } // namespace
 
 Flags
-findDepthSteps (const TriangleMesh& view, const Rays& rays, const StepLimits& limits,
-                const RunContext& run)
+findDepthSteps (const TriangleMesh& view, const Rays& rays, const RunContext& run)
 {
-  return StepFinder (view, rays, limits, run).find ();
+  return StepFinder (view, rays, run).find ();
 }
 
 } // namespace pcl::floater

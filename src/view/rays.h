@@ -7,6 +7,11 @@
 #include "core/types.h"
 
 namespace pcl::floater {
+/// Depth over width from one ray to the next, from which on one may be beyond the other. Surfaces
+/// at less than 14 degrees to the ray return hardly any light, so few edges of a surface are
+/// steeper.
+constexpr double STEEP = 4.0;
+
 /// Viewpoint of a cloud.
 struct Viewpoint
 {

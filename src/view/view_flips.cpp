@@ -8,6 +8,12 @@
 
 namespace pcl::floater {
 namespace {
+// Degrees by which the angles opposite to the new edge may exceed 180 in the view. On a raster it
+// is 0: both diagonals of a cell are Delaunay.
+constexpr double ANGLE = 90.0;
+// Cost of a fold; an edge costs 1 - cosine of the angle between its triangles. The largest change
+// of cost by an edge without a fold is 1.5, so a fold equals three of these.
+constexpr double FOLD_COST = 5.0;
 // A smaller change of cost may be rounding.
 constexpr double SHORTER = 1e-9;
 
@@ -15,12 +21,10 @@ class ViewFlipper
 {
 public:
   ViewFlipper (TriangleMesh& mesh, const Rays& rays, const Positions& positions,
-               const ViewFlipLimits& limits, const RunContext& run)
-      : mesh_ (mesh), rays_ (rays), positions_ (positions), limits_ (limits), run_ (run),
-        largest_angles_ (PI + limits.angle * DEGREE)
+               const RunContext& run)
+      : mesh_ (mesh), rays_ (rays), positions_ (positions), run_ (run),
+        normals_ (mesh.triangles.size ()), is_changed_ (mesh.triangles.size ())
   {
-    normals_.resize (mesh.triangles.size ());
-    is_changed_.resize (mesh.triangles.size (), 0);
     parallelPoints (run, normals_.size (),
                     [&] (Index t) { normals_[t] = normalOf (mesh.triangles[t]); });
   }
@@ -127,12 +131,12 @@ private:
   bool isFlippable (Index a, Index b, Index c, Index d) const
   {
     const std::optional<double> at_a = angle (a, d, c), at_b = angle (b, c, d);
-    return at_a && at_b && *at_a + *at_b <= largest_angles_;
+    return at_a && at_b && *at_a + *at_b <= PI + ANGLE * DEGREE;
   }
 
   double costOf (const Vector3d& normal, const Vector3d& other) const
   {
-    return 1.0 - normal.dot (other) + (isFold (normal, other) ? limits_.fold_cost : 0.0);
+    return 1.0 - normal.dot (other) + (isFold (normal, other) ? FOLD_COST : 0.0);
   }
 
   double costAcross (const Vector3d& normal, Index other) const
@@ -164,9 +168,7 @@ private:
   TriangleMesh& mesh_;
   const Rays& rays_;
   const Positions& positions_;
-  const ViewFlipLimits& limits_;
   RunContext run_;
-  double largest_angles_;
   std::vector<Vector3d> normals_; // of the triangles, unit length
   Flags is_changed_;              // of each triangle: by a flip of this round
 };
@@ -174,9 +176,12 @@ private:
 } // namespace
 
 Flags
-findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
-          const RunContext& run)
+findGaps (const TriangleMesh& view, const Rays& rays, const RunContext& run)
 {
+  // Circumradius of a triangle, over the typical one around it, above which it lies in a gap. A
+  // block of 4 by 4 missing rays in a raster has 3.5 times the radius of its cells, one of 5 by 5
+  // has 4.2. For random rays, two triangles in a thousand are as large.
+  constexpr double RADIUS = 4.0;
   const std::size_t points = view.triangle_of.size ();
   std::vector<float> radii (view.triangles.size ());
   parallelPoints (run, radii.size (), [&] (Index t) {
@@ -216,16 +221,15 @@ findGaps (const TriangleMesh& view, const Rays& rays, const GapLimits& limits,
   for (std::size_t t = 0; t < radii.size (); ++t) {
     const auto& [a, b, c] = view.triangles[t];
     const double least = std::min ({typical[a], typical[b], typical[c]});
-    is_gap[t] = static_cast<double> (radii[t]) > limits.radius * least ? 1 : 0;
+    is_gap[t] = static_cast<double> (radii[t]) > RADIUS * least ? 1 : 0;
   }
   return is_gap;
 }
 
 std::size_t
-flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions,
-            const ViewFlipLimits& limits, const RunContext& run)
+flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions, const RunContext& run)
 {
-  return ViewFlipper (mesh, rays, positions, limits, run).run ();
+  return ViewFlipper (mesh, rays, positions, run).run ();
 }
 
 } // namespace pcl::floater

@@ -101,34 +101,38 @@ faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
 } // namespace
 
 Sight
-sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
-           const EvidenceLimits& limits, const RunContext& run)
+sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told, const RunContext& run)
 {
+  constexpr std::size_t FEWEST_PATCHES = 4; // that a cloud must fill to be recognised
+  // Largest DensityEvidence::hidden_share of a scan whose place is told, such as one with much
+  // noise after a voxel filter, 0.018. Bodies seen from outside have 0.1 and more.
+  constexpr double HIDDEN = 0.03;
   const Positions& positions = points.positions;
-  const bool are_enough = positions.size () >= limits.fewest_patches * limits.patch_points;
-  if ((!are_enough && !is_told) || looksToAllSides (positions, viewpoint, limits))
+  const bool are_enough = positions.size () >= FEWEST_PATCHES * PATCH_POINTS;
+  if ((!are_enough && !is_told) || looksToAllSides (positions, viewpoint))
     return Sight::NO;
-  const std::vector<RayPatch> patches = findRayPatches (positions, viewpoint, limits, run);
-  const RayEvidence rays = findRayEvidence (positions, patches, viewpoint, limits, run);
-  if (are_enough && isSeenFromThere (rays, limits))
+  const std::vector<RayPatch> patches = findRayPatches (positions, viewpoint, run);
+  const RayEvidence rays = findRayEvidence (positions, patches, viewpoint, run);
+  if (are_enough && isSeenFromThere (rays))
     return Sight::CERTAIN;
-  constexpr double AT_SENSOR = 2.0; // times as many: densities are without points at the sensor
-  const bool may_be = are_enough && rays.nearShare () <= AT_SENSOR * limits.crossing_share;
+  // Twice as many: densities are without points at the sensor.
+  const bool may_be = are_enough && rays.nearShare () <= 2.0 * CROSSING_SHARE;
   const bool is_likely =
-      is_told || (are_enough && areOutlinesClear (positions, patches, viewpoint, {}, run));
+      is_told || (are_enough && areOutlinesClear (positions, patches, viewpoint, run));
   if (!may_be && !is_likely)
     return Sight::NO;
-  const DensityEvidence densities =
-      findDensityEvidence (positions, patches, viewpoint, limits, run);
-  if (may_be && explainsDensity (positions, densities, viewpoint, limits, run))
+  const DensityEvidence densities = findDensityEvidence (positions, patches, viewpoint, run);
+  if (may_be && explainsDensity (positions, densities, viewpoint, DENSITY_REGULARITY, run))
     return Sight::CERTAIN;
-  return is_likely && densities.hidden_share <= limits.hidden_if_told ? Sight::POSSIBLE : Sight::NO;
+  return is_likely && densities.hidden_share <= HIDDEN ? Sight::POSSIBLE : Sight::NO;
 }
 
 ViewSurface
 makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
                  FacingHints hints, const RunContext& run)
 {
+  // Points; smaller components are left out with the outliers. A point and the rays around it are 7 or 9.
+  constexpr std::size_t SMALLEST_PART = 12;
   ViewSurface surface;
   TriangleMesh& mesh = surface.mesh;
   run.beginStage (Stage::DELAUNAY);
@@ -136,8 +140,8 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   mesh = inOrder (triangulateHull (rays.places), run);
 
   run.beginStage (Stage::HOLES);
-  Flags is_left_out = findGaps (mesh, rays, settings.limits.gaps, run);
-  Flags is_step = findDepthSteps (mesh, rays, settings.limits.steps, run);
+  Flags is_left_out = findGaps (mesh, rays, run);
+  Flags is_step = findDepthSteps (mesh, rays, run);
   dropShortSteps (mesh, is_left_out, settings.limits.shortest_step, is_step);
   surface.is_at_step.assign (points.size (), 0);
   for (std::size_t t = 0; t < is_step.size (); ++t) {
@@ -153,13 +157,13 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
 
   run.beginStage (Stage::FLIPS);
   if (settings.options.flip_edges)
-    surface.finish.flips = flipInView (mesh, rays, points.positions, settings.limits.flips, run);
+    surface.finish.flips = flipInView (mesh, rays, points.positions, run);
   surface.spacing = spacingOfMesh (mesh, points.positions, run);
   TrimmingOptions bridges;
   bridges.maximum_edge_ratio = settings.limits.longest_edge;
   surface.steps += trimMesh (mesh, points, surface.spacing, bridges, run).triangles;
   if (settings.options.remove_outliers)
-    removeSmallComponents (mesh, settings.limits.smallest_part, run);
+    removeSmallComponents (mesh, SMALLEST_PART, run);
   if (settings.options.holes.policy != HolePolicy::AUTO)
     surface.holes_filled = closeHoles (mesh, points, surface.spacing, viewpoint, settings, run);
   surface.finish.facing =

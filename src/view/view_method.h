@@ -11,32 +11,15 @@
 #include "view/viewpoint_search.h"
 
 namespace pcl::floater {
-/// The limits of all steps of the view method.
+/// Limits of the view method.
 struct ViewLimits
 {
-  EvidenceLimits evidence;
-  SearchLimits search;
-  GapLimits gaps;
-  StepLimits steps;
-  ViewFlipLimits flips;
-  std::size_t shortest_step = 9;  ///< triangles of an isolated depth step; shorter ones are noise.
-                                  ///< One edge beyond the noise marks 2, and all edges of a point 6
-                                  ///< or 8
-  std::size_t smallest_part = 12; ///< points; smaller components are left out with the
-                                  ///< outliers. A point and the rays around it are 7 or 9
-  double longest_edge = 16.0;     ///< local spacings. Of 25 longer edges in 24 generated and 3 real
-                                  ///< scans, 22 bridged what is no surface; of edges of 10 to 16
-                                  ///< only half did
-  /// of the points; if more are in no triangle, at depth steps, the cloud is not a scan of surfaces
-  /// from there. Of a scan by 16 rings, 0.06 are: things as high as one ring are no surface; of
-  /// scans from a moving car, up to 0.10; of a raster of heights with missing ones, 0.2
-  double largest_unused_share = 0.15;
-  /// the same, of all unused points, also those alone in gaps. Measured: at most 0.15 in generated
-  /// scans, 0.21 in a real one of 32 rings; 0.37 in profiles far apart
-  double largest_unused_in_all = 0.25;
-  double largest_unused_if_told =
-      0.01; ///< the same if only the file or outlines tell the viewpoint. Scans from
-            ///< several places, of which it tells one, have 0.013 to 0.035
+  std::size_t shortest_step = 9; ///< triangles of an isolated depth step; shorter ones are noise.
+                                 ///< One edge beyond the noise marks 2, and all edges of a point 6
+                                 ///< or 8
+  double longest_edge = 16.0;    ///< local spacings. Of 25 longer edges in 24 generated and 3 real
+                                 ///< scans, 22 bridged what is no surface; of edges of 10 to 16
+                                 ///< only half did
 };
 
 struct ViewSettings
@@ -57,8 +40,7 @@ enum class Sight
 /// O(n log n), 0.1 microseconds per point if it was.
 /// \param is_told the place is that of a sensor
 Sight
-sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told,
-           const EvidenceLimits& limits, const RunContext& run);
+sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told, const RunContext& run);
 
 /// The surface of one scan.
 struct ViewSurface

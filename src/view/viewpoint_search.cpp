@@ -10,56 +10,68 @@
 
 namespace pcl::floater {
 namespace {
+// `DensityEvidence::left` of a place that is not told but searched. Right ones have up to 0.31,
+// wrong ones 0.38 and more.
+constexpr double SEARCHED_DENSITY_REGULARITY = 1.0 / 3.0;
+
+// Factors by which the evidence at a viewpoint may miss REGULARITY and NEAR_SHARE for the search to
+// go on from there.
+struct Excess
+{
+  double regularity, near_share;
+};
+
+// After each of the first three rounds, and after later ones, which hardly change the evidence.
+// Near the right viewpoint, outlines may hide each other, so that all rays are near others; not for
+// parallel rays. In simulated scans, right viewpoints had up to 1.5 and 2.3 in the middle, and
+// below 1 at the end; wrong ones up to 1.5 and 12. EARLY_FROM_FAR also holds for all viewpoints
+// just before the later rounds: there, right ones of 60 simulated scans had up to 0.3 and 0.2, that
+// of a real one 0.9 and 3.2, and wrong ones 0.9 and 3.5 or more.
+constexpr Excess EARLY{2.0, 100.0}, EARLY_FROM_FAR{2.0, 5.0}, LATE{1.4, 2.0};
+
 class ViewpointSearch
 {
 public:
   ViewpointSearch (const Points& points, const RowOf& row_of,
-                   const std::vector<AreaSample>& samples, const SearchLimits& limits,
-                   const EvidenceLimits& evidence, bool may_be_far, const RunContext& run)
-      : positions_ (points.positions), row_of_ (row_of), limits_ (limits), evidence_ (evidence),
-        run_ (run), samples_ (samples), may_be_far_ (may_be_far)
+                   const std::vector<AreaSample>& samples, std::size_t patches, bool may_be_far,
+                   const RunContext& run)
+      : positions_ (points.positions), row_of_ (row_of), samples_ (samples), patches_ (patches),
+        few_patches_ (std::min (patches, COARSELY)), may_be_far_ (may_be_far),
+        excess_ (may_be_far ? 1.0 : LATE.regularity), run_ (run)
   {
     for (const Vector3d& position : positions_)
       box_.extend (position);
-    evidence_.hidden_share *= evidence_.density_regularity / limits.density_regularity;
-    evidence_.density_regularity = limits.density_regularity;
-    lenient_ = evidence_;
-    lenient_.regularity *= limits.late.regularity;
-    if (!may_be_far)
-      evidence_ = lenient_;
-    coarse_ = evidence_;
-    coarse_.patches = std::min (coarse_.patches, limits.coarse_patches);
   }
 
   // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
   std::optional<Viewpoint> findAlongRows (const Vector3d& across) const
   {
     const Vector3d x = across.unitOrthogonal (), y = across.cross (x);
-    const std::size_t count = limits_.row_directions;
-    const double step = PI / static_cast<double> (count);
+    constexpr std::size_t DIRECTIONS = 180; // one degree apart
+    constexpr std::size_t REFINED = 4;      // best directions
+    const double step = PI / static_cast<double> (DIRECTIONS);
     std::vector<RatedViewpoint> candidates;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < DIRECTIONS; ++k) {
       const double angle = step * static_cast<double> (k);
       candidates.push_back ({0.0, {std::cos (angle) * x + std::sin (angle) * y, true}});
     }
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
-    const std::vector<RayPatch> patches = findPointPatches (
-        positions_, row_of_, std::min (coarse_.patches, FEW), coarse_.patch_points);
+    const std::vector<RayPatch> patches = findPointPatches (positions_, row_of_, FEW);
     // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
     // least cost was up to .053 of the median; along noisy lines that are no scan, .15 and more.
     constexpr double LEAST = 0.1;
-    parallelTasks (run_, count, [&] (std::size_t k) {
+    parallelTasks (run_, DIRECTIONS, [&] (std::size_t k) {
       candidates[k].cost =
           findRaySpread (positions_, patches, candidates[k].viewpoint, false, run_.withThreads (1));
     });
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    if (candidates.front ().cost > LEAST * candidates[count / 2].cost)
+    if (candidates.front ().cost > LEAST * candidates[DIRECTIONS / 2].cost)
       return {};
     // Rays are evenly spaced from the right direction only; from others, less than from those
     // around.
     std::optional<Found> best;
-    for (const RatedViewpoint& start : keepApart (candidates, APART, limits_.by_rows))
+    for (const RatedViewpoint& start : keepApart (candidates, APART, REFINED))
       if (takeBetter (refine (start.viewpoint, step), best))
         break;
     return best && best->is_certain ? std::optional<Viewpoint> (best->viewpoint) : std::nullopt;
@@ -68,17 +80,17 @@ public:
   // \param in_rows points lie in rows, as those of a spinning lidar
   std::optional<Viewpoint> find (bool in_rows) const
   {
-    std::vector<RatedViewpoint> candidates =
-        searchByAreas (samples_, box_, may_be_far_, limits_.areas, run_);
+    constexpr std::size_t REFINED = 3; // best places by rays, until one is right
+    std::vector<RatedViewpoint> candidates = searchByAreas (samples_, box_, may_be_far_, run_);
     // Areas can mislead: in a plane, they are the same from many places. Rays tell which is right.
     parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
       const RunContext one = run_.withThreads (1);
       const Viewpoint& place = candidates[k].viewpoint;
       candidates[k].cost = findRaySpread (
-          positions_, findRayPatches (positions_, place, coarse_, one), place, true, one);
+          positions_, findRayPatches (positions_, place, one, few_patches_), place, true, one);
     });
     std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
-    candidates.resize (std::min (candidates.size (), limits_.by_rays));
+    candidates.resize (std::min (candidates.size (), REFINED));
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
       const bool ends = takeBetter (refine (candidate.viewpoint), found);
@@ -140,7 +152,7 @@ private:
   bool isDetermined (const Found& found) const
   {
     const Viewpoint& place = found.viewpoint;
-    if (!found.explains && !place.is_far && looksToAllSides (positions_, place, evidence_))
+    if (!found.explains && !place.is_far && looksToAllSides (positions_, place))
       return false;
     return found.is_certain ||
            (!place.is_far && evidenceAt (place).ray_spread <
@@ -178,12 +190,12 @@ private:
   }
 
   bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
-                   const EvidenceLimits& limits, const EvidenceExcess& excess) const
+                   const Excess& excess) const
   {
-    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, limits, run_);
+    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, run_);
     return findRaySpread (positions_, patches, viewpoint, false, run_) >
-               excess.regularity * evidence_.regularity * evidence.point_spread ||
-           evidence.nearShare () > excess.near_share * evidence_.near_share;
+               excess.regularity * excess_ * REGULARITY * evidence.point_spread ||
+           evidence.nearShare () > excess.near_share * NEAR_SHARE;
   }
 
   // Rows determine the viewpoint of a spinning lidar along its axis, but may mislead from far off,
@@ -204,81 +216,85 @@ private:
 
   RayEvidence evidenceAt (const Viewpoint& viewpoint) const
   {
-    return findRayEvidence (positions_, findRayPatches (positions_, viewpoint, evidence_, run_),
-                            viewpoint, evidence_, run_);
+    return findRayEvidence (positions_, findRayPatches (positions_, viewpoint, run_, patches_),
+                            viewpoint, run_);
   }
 
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
   std::optional<Found> refineBy (Viewpoint viewpoint, double step, Measure measure) const
   {
-    constexpr std::size_t EARLY = 3; // rounds
-    constexpr double LENIENT = 1.5;  // before; real scans have up to 1.1 at the start
+    constexpr std::size_t FIRST = 3; // rounds
+    constexpr std::size_t ROUNDS =
+        7; // each with new patches. With 9, as many of 278 generated scans were
+           // recognised, and none was better
+    constexpr std::size_t EVALUATIONS = 400; // in each round
+    constexpr double LENIENT = 1.5;          // in the first; real scans have up to 1.1 at the start
     const bool by_density = measure == Measure::DENSITY;
-    for (std::size_t round = 0; round < limits_.rounds; ++round) {
-      const EvidenceLimits& limits = round < EARLY ? coarse_ : evidence_;
-      const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, limits, run_);
+    for (std::size_t round = 0; round < ROUNDS; ++round) {
+      const bool is_first = round < FIRST;
+      const std::vector<RayPatch> patches =
+          findRayPatches (positions_, viewpoint, run_, is_first ? few_patches_ : patches_);
       const auto densities = [&] (const Viewpoint& v) {
-        return findDensityEvidence (positions_, patches, v, evidence_, run_);
+        return findDensityEvidence (positions_, patches, v, run_);
       };
-      const double most = (round < EARLY ? LENIENT : 1.0) * evidence_.density_regularity;
-      if (by_density
-              ? round <= EARLY && densities (viewpoint).left (evidence_) > most
-              : round == EARLY && isHopeless (patches, viewpoint, limits, limits_.early_from_far))
+      const double most = (is_first ? LENIENT : 1.0) * SEARCHED_DENSITY_REGULARITY;
+      if (by_density ? round <= FIRST && densities (viewpoint).left () > most
+                     : round == FIRST && isHopeless (patches, viewpoint, EARLY_FROM_FAR))
         return {};
       const auto cost = [&] (const Viewpoint& v) {
-        return by_density && round < EARLY
+        return by_density && is_first
                    ? densities (v).ray_spread
                    : findRaySpread (positions_, patches, v, measure != Measure::RAYS, run_);
       };
       viewpoint =
-          patternSearch (viewpoint, step, 0.2 * step, box_.center (), limits_.ray_evaluations, cost)
-              .viewpoint;
+          patternSearch (viewpoint, step, 0.2 * step, box_.center (), EVALUATIONS, cost).viewpoint;
       step *= 0.4;
-      if (!by_density && isHopeless (patches, viewpoint, limits,
-                                     round >= EARLY     ? limits_.late
-                                     : viewpoint.is_far ? limits_.early_from_far
-                                                        : limits_.early))
+      if (!by_density && isHopeless (patches, viewpoint,
+                                     !is_first          ? LATE
+                                     : viewpoint.is_far ? EARLY_FROM_FAR
+                                                        : EARLY))
         return {};
     }
-    const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, evidence_, run_);
-    const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, evidence_, run_);
-    const bool is_sure = isSeenFromThere (rays, evidence_);
+    const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, run_, patches_);
+    const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, run_);
+    const bool is_sure = isSeenFromThere (rays, excess_);
     // Along a far direction, nothing is beside.
     const bool explains =
         !is_sure && !viewpoint.is_far &&
-        explainsDensity (positions_,
-                         findDensityEvidence (positions_, patches, viewpoint, evidence_, run_),
-                         viewpoint, evidence_, run_);
-    const bool is_even = is_sure || (!viewpoint.is_far && isSeenFromThere (rays, lenient_));
+        explainsDensity (positions_, findDensityEvidence (positions_, patches, viewpoint, run_),
+                         viewpoint, SEARCHED_DENSITY_REGULARITY, run_);
+    const bool is_even = // with evidence of its own, see isDetermined ()
+        is_sure || (!viewpoint.is_far && isSeenFromThere (rays, LATE.regularity));
     if (!is_even && !explains)
       return {};
     return Found{findRaySpread (positions_, patches, viewpoint, true, run_), viewpoint, is_even,
                  explains, may_be_far_ && (is_sure || explains)};
   }
 
+  static constexpr std::size_t COARSELY = 32;
+
   const Positions& positions_;
   const RowOf& row_of_;
-  const SearchLimits& limits_;
-  EvidenceLimits evidence_;
-  EvidenceLimits coarse_;  // fewer patches, during the search
-  EvidenceLimits lenient_; // with evidence of its own, see isDetermined ()
-  RunContext run_;
   const std::vector<AreaSample>& samples_;
-  Eigen::AlignedBox3d box_;
+  std::size_t patches_, few_patches_; // the latter in the first rounds of a descent
   bool may_be_far_;
+  double excess_; // by which REGULARITY may be missed
+  RunContext run_;
+  Eigen::AlignedBox3d box_;
 };
 
 } // namespace
 
 RowEvidence
-findRows (const Points& points, const RowOf& row_of, std::size_t count)
+findRows (const Points& points, const RowOf& row_of)
 {
+  constexpr std::size_t TESTED = 500;
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
   constexpr double BENT = 0.87;     // cosine of 30 degrees. Noise of 0.3 spacings along the surface
                                     // turns rows by 12 degrees
   constexpr double FEWEST_BENT = 0.02; // of the rows: such noise has 0.012, a body on a table more
   const Positions& positions = points.positions;
-  const std::size_t step = std::max<std::size_t> (1, positions.size () / count);
+  const std::size_t step = std::max<std::size_t> (1, positions.size () / TESTED);
   std::size_t looked_at = 0;
   std::vector<Vector3d> directions;                 // of the rows
   Eigen::Matrix3d along = Eigen::Matrix3d::Zero (); // sum of their squares
@@ -318,27 +334,34 @@ findRows (const Points& points, const RowOf& row_of, std::size_t count)
 
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const RowOf& row_of, const std::vector<AreaSample>& samples,
-               SearchReason reason, const SearchLimits& limits, const EvidenceLimits& evidence,
-               const RunContext& run)
+               SearchReason reason, const RunContext& run)
 {
-  constexpr std::size_t FEWEST_PATCHES = 16;
-  EvidenceLimits filled = evidence;
-  filled.patches = std::min (evidence.patches, points.size () / evidence.patch_points);
-  if (filled.patches < FEWEST_PATCHES)
+  // Spread of the areas of patches (logarithm of the ratio of the quartiles); below, the cloud is
+  // sampled evenly. Random points have 0.2.
+  constexpr double EVEN = 0.35;
+  // Share of points between their two nearest neighbours; above, the cloud was scanned along lines.
+  // Random points have 0.25, a square raster 0.33.
+  constexpr double LINES = 0.6;
+  // The same of a spinning lidar, for a search by the density of its rays: graded sheets are as
+  // even from some place. 15 scans of cars have 0.47 and more, such sheets of random points up to
+  // 0.25.
+  constexpr double RINGS = 0.4;
+  constexpr std::size_t FEWEST_PATCHES = 16, FEWEST_FOR_PLACES = 32;
+  const std::size_t patches = std::min (PATCHES, points.size () / PATCH_POINTS);
+  if (patches < FEWEST_PATCHES)
     return {};
   const bool for_uneven = reason == SearchReason::UNEVEN;
-  const ViewpointSearch search (points, row_of, samples, limits, filled, for_uneven, run);
+  const ViewpointSearch search (points, row_of, samples, patches, for_uneven, run);
   RowEvidence rows;
   if (for_uneven)
-    rows = findRows (points, row_of, limits.samples);
-  if (rows.share > limits.rows && !rows.are_straight)
+    rows = findRows (points, row_of);
+  if (rows.share > LINES && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;
-  constexpr std::size_t LEAST_SHARE = 4; // a quarter of the patches
-  if (LEAST_SHARE * filled.patches < evidence.patches || samples.size () < limits.samples / 2 ||
-      (spreadOfAreas (samples) > limits.even) != for_uneven)
+  if (patches < FEWEST_FOR_PLACES || samples.size () < AREA_SAMPLES / 2 ||
+      (spreadOfAreas (samples) > EVEN) != for_uneven)
     return {};
-  return search.find (rows.share > limits.rings);
+  return search.find (rows.share > RINGS);
 }
 
 } // namespace pcl::floater

@@ -8,46 +8,6 @@
 #include "view/area_search.h"
 
 namespace pcl::floater {
-/// Factors by which the evidence at a viewpoint may miss EvidenceLimits for the search to go on
-/// from there.
-struct EvidenceExcess
-{
-  double regularity, near_share;
-};
-
-/// Size of the search, and its thresholds.
-struct SearchLimits
-{
-  double even = 0.35; ///< spread of the areas of patches (logarithm of the ratio of the quartiles);
-                      ///< below, the cloud is sampled evenly. Random points have 0.2
-  double rows = 0.6; ///< share of points between their two nearest neighbours; above, the cloud was
-                     ///< scanned along lines. Random points have 0.25, a square raster 0.33
-  double rings =
-      0.4; ///< the same of a spinning lidar, for a search by the density of its rays: graded
-           ///< sheets are as even from some place. 15 scans of cars have 0.47 and
-           ///< more, such sheets of random points up to 0.25
-  std::size_t row_directions = 180; ///< tested for such a cloud: one degree apart
-  std::size_t by_rows = 4;          ///< best directions, which are refined
-  AreaSearchLimits areas;
-  double density_regularity = 1.0 / 3.0; ///< of EvidenceLimits, for a place that is not told but
-                                         ///< searched. Right ones have up to 0.31, wrong ones 0.38
-                                         ///< and more
-  std::size_t samples = 500;       ///< sampled areas; the error of the spread of so many is 6 %
-  std::size_t by_rays = 3;         ///< best of these by rays, which are refined until one is right
-  std::size_t rounds = 7;          ///< of a refinement, each with new patches. With 9, as many of
-                                   ///< 278 generated scans were recognised, and none was better
-  std::size_t coarse_patches = 32; ///< of EvidenceLimits::patches, in the first three rounds
-  std::size_t ray_evaluations = 400; ///< in each round
-
-  /// After each of the first three rounds, and after later ones, which hardly change the evidence.
-  /// Near the right viewpoint, outlines may hide each other, so that all rays are near others; not
-  /// for parallel rays. In simulated scans, right viewpoints had up to 1.5 and 2.3 in the middle,
-  /// and below 1 at the end; wrong ones up to 1.5 and 12. `early_from_far` also holds for all
-  /// viewpoints just before the later rounds: there, right ones of 60 simulated scans had up to 0.3
-  /// and 0.2, that of a real one 0.9 and 3.2, and wrong ones 0.9 and 3.5 or more.
-  EvidenceExcess early{2.0, 100.0}, early_from_far{2.0, 5.0}, late{1.4, 2.0};
-};
-
 /// Whether points lie in rows, as those of a line scanner.
 struct RowEvidence
 {
@@ -57,9 +17,9 @@ struct RowEvidence
 };
 
 /// \param row_of neighbours of a point, nearest first
-/// \param count number of tested points, spread evenly over their order. O(count).
+/// Tests some points, spread evenly over their order. O(1).
 RowEvidence
-findRows (const Points& points, const RowOf& row_of, std::size_t count);
+findRows (const Points& points, const RowOf& row_of);
 
 /// Why a viewpoint is searched.
 enum class SearchReason
@@ -78,14 +38,12 @@ enum class SearchReason
 ///
 /// Rays: near the best of these, pattern search finds the viewpoints from which the rays are most
 /// evenly spaced and no point hides another (see RayEvidence), or the viewpoint explains the density
-/// of the points (see explainsDensity). Clouds that fill few patches (EvidenceLimits) have no
-/// evidence.
+/// of the points (see explainsDensity). Clouds that fill few patches have no evidence.
 /// \param row_of    neighbours of a point, nearest first
-/// \param samples   SearchLimits::samples of the points, see takePatchSamples
+/// \param samples   see takePatchSamples
 /// \return a viewpoint with enough evidence, if there is one. O(n), about 3 microseconds per point.
 std::optional<Viewpoint>
 findViewpoint (const Points& points, const RowOf& row_of, const std::vector<AreaSample>& samples,
-               SearchReason reason, const SearchLimits& limits, const EvidenceLimits& evidence,
-               const RunContext& run);
+               SearchReason reason, const RunContext& run);
 
 } // namespace pcl::floater

@@ -70,7 +70,7 @@ TEST (FilteredScans, OutlinesTellOfASensorInTheOrigin)
       SCOPED_TRACE (testing::Message () << "seed " << seed << ", aside " << aside.transpose ());
       const bool is_there = aside.isZero ();
       const Positions points = filteredYard (seed, aside);
-      EXPECT_EQ (areOutlinesClear (points, findRayPatches (points, origin, {}, 1), origin, {}, 1),
+      EXPECT_EQ (areOutlinesClear (points, findRayPatches (points, origin, 1), origin, 1),
                  is_there);
       if (!is_there)
         continue;
@@ -107,12 +107,7 @@ TEST (FilteredScans, RowsAreNoOutlines)
     for (const Eigen::Vector3d& p : jitteredGrid (1, 200, 0.1, 0.3, random))
       rows.emplace_back (x + p.x (), p.y () - 10.0, -1.0);
   const Viewpoint origin;
-  for (const double row : {0.0, OutlineLimits ().row}) {
-    OutlineLimits limits;
-    limits.row = row;
-    EXPECT_EQ (areOutlinesClear (rows, findRayPatches (rows, origin, {}, 1), origin, limits, 1),
-               row == 0.0);
-  }
+  EXPECT_FALSE (areOutlinesClear (rows, findRayPatches (rows, origin, 1), origin, 1));
 }
 
 // What has no outline tells nothing.
@@ -120,7 +115,7 @@ TEST (FilteredScans, WithoutOutlinesNothingIsTold)
 {
   const Viewpoint origin;
   const Positions wave = placed (surface (SurfaceKind::HEIGHT_FIELD, 5000), {0.0, 0.0, 100.0});
-  EXPECT_FALSE (areOutlinesClear (wave, findRayPatches (wave, origin, {}, 1), origin, {}, 1));
+  EXPECT_FALSE (areOutlinesClear (wave, findRayPatches (wave, origin, 1), origin, 1));
 }
 
 } // namespace

@@ -318,8 +318,7 @@ TEST (RowEvidence, OfLinesAndCirclesAndOfNoRows)
   const auto rowsOf = [] (const Positions& positions) {
     const Points points = workingPoints (positions);
     const CsrLists all = findNeighbors (points, {}, 1);
-    return findRows (
-        points, [&all] (Index p) { return all.row (p); }, 200);
+    return findRows (points, [&all] (Index p) { return all.row (p); });
   };
   EXPECT_GT (rowsOf (lines).share, 0.95);
   EXPECT_TRUE (rowsOf (lines).are_straight);
