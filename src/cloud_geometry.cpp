@@ -4,6 +4,7 @@
 
 #include "core/order_statistics.h"
 #include "input/input.h"
+#include "local/curves.h"
 #include "local/scatter.h"
 #include "points/outliers.h"
 #include "report/findings.h"
@@ -44,11 +45,9 @@ outliersOf (const Points& points, const CsrLists& neighbors, const Request& requ
 Problem
 checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  const Limits& limits = request.limits;
-  const Curves curves =
-      findCurves (points.positions, -points.centre / points.scale, geometry,
-                  static_cast<std::size_t> (request.options.neighbors.k),
-                  limits.planes.least_aspect, limits.reach, limits.curves, request.run);
+  const Curves curves = findCurves (points.positions, -points.centre / points.scale, geometry,
+                                    static_cast<std::size_t> (request.options.neighbors.k),
+                                    request.limits.planes.least_aspect, request.run);
   if (!curves.are_all)
     return {};
   const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
@@ -71,10 +70,8 @@ std::vector<Index>
 scatterOf (const Points& points, const LocalGeometry& geometry, const Noise& noise,
            const Request& request)
 {
-  const Limits& limits = request.limits;
   std::vector<Index> scatter =
-      findScatter (geometry, noise, limits.noise.uneven,
-                   request.options.scatter == ScatterPolicy::AUTO, limits.scatter, request.run);
+      findScatter (geometry, noise, request.options.scatter == ScatterPolicy::AUTO, request.run);
   return dropsScatter (request.options)
              ? exceptLoop (std::move (scatter), points, request.options.disc.boundary.loop)
              : scatter;
@@ -111,7 +108,6 @@ starSettings (const Request& request)
   settings.with_offsets = asksForDisc (options);
   settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
   settings.limits = request.limits.sheets;
-  settings.reach = request.limits.reach;
   return settings;
 }
 
@@ -132,14 +128,13 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
               const NeighborSettings& settings, const Request& request)
 {
   const RunContext& run = request.run;
-  points.projected =
-      projectNoisyPoints (points.positions, geometry.neighbors, noise, request.limits.noise, run);
+  points.projected = projectNoisyPoints (points.positions, geometry.neighbors, noise, run);
   const StarSettings stars = starSettings (request);
   LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
                                        request.limits.planes);
   LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);
   keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
-                 starAgreement (projected.stars, run), request.limits.noise, noise);
+                 starAgreement (projected.stars, run), noise);
   if (noise.noisy_points == 0) {
     points.projected.clear ();
     return geometry;

@@ -272,7 +272,7 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
   const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
-  const RowOf row_of = rowsBeside (points, planes, starSettings (request), request.limits.planes);
+  const RowOf row_of = rowsBeside (points, planes, request.limits.planes);
   const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
   for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
     if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))

@@ -4,6 +4,8 @@
 
 #include "core/order_statistics.h"
 #include "options/check_options.h"
+#include "points/invalid_points.h"
+#include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
 
@@ -44,8 +46,7 @@ checkInput (const Input& input)
 
 // Makes points that stand for no measurement not finite, and removes gross outliers.
 Problem
-cleanInput (Input& input, const Options& options, const Limits& limits, const RunContext& run,
-            Report& report)
+cleanInput (Input& input, const Options& options, const RunContext& run, Report& report)
 {
   std::vector<Index> given = options.disc.boundary.loop;
   std::sort (given.begin (), given.end ());
@@ -54,7 +55,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
            !std::binary_search (given.begin (), given.end (), input.cloud_index[row]);
   };
   const Vector3d shift (input.shift.data ());
-  const InvalidPoints invalid = findInvalidPoints (input.positions, shift, limits.invalid);
+  const InvalidPoints invalid = findInvalidPoints (input.positions, shift);
   const auto leaveOut = [&] (const std::vector<Index>& rows) {
     double count = 0.0;
     for (const Index row : rows)
@@ -75,7 +76,7 @@ cleanInput (Input& input, const Options& options, const Limits& limits, const Ru
     addFinding (report, FindingId::INVALID_CELLS, {}, {}, count, invalid.height, invalid.gap);
 
   constexpr std::size_t LARGEST_SHARE = 4; // a quarter of the points are not outliers
-  const GrossOutliers found = findGrossOutliers (input.positions, run, limits.gross_outliers);
+  const GrossOutliers found = findGrossOutliers (input.positions, run);
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};
   const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
@@ -135,7 +136,7 @@ takePoints (Input& input, const Request& request, Points& points, Report& report
     return problem;
 
   run.beginStage (Stage::WORKING_SET);
-  if (Problem problem = cleanInput (input, options, request.limits, run, report))
+  if (Problem problem = cleanInput (input, options, run, report))
     return problem;
   points = makePoints (input.positions, input.cloud_index, run);
   points.normals = normalsOfPoints (input.normals, points);

@@ -9,23 +9,29 @@
 
 namespace pcl::floater {
 namespace {
+// Share of the points that lie on a line with their neighbours, or in turns.
+constexpr double ON_LINES = 0.9;
+
 // Number of points of a turn whose step to the next point is about as large as most steps.
 std::size_t
-evenSteps (std::vector<double> angles, const CurveLimits& limits)
+evenSteps (std::vector<double> angles)
 {
+  // How far a step may be from the median; 7 % of the steps of strewn points are within it, 62 % of
+  // a golden spiral's.
+  constexpr double EVEN_STEP = 0.1;
   std::sort (angles.begin (), angles.end ());
   std::vector<double> steps{angles.front () + 2.0 * PI - angles.back ()};
   for (std::size_t i = 1; i < angles.size (); ++i)
     steps.push_back (angles[i] - angles[i - 1]);
   const double usual = median (steps);
-  const auto isEven = [&] (double s) { return std::abs (s - usual) < limits.even_step * usual; };
+  const auto isEven = [&] (double s) { return std::abs (s - usual) < EVEN_STEP * usual; };
   return static_cast<std::size_t> (std::count_if (steps.begin (), steps.end (), isEven));
 }
 
 // The axis of a sensor that turns about it, if nearly all points lie in turns.
 std::optional<int>
 findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists& neighbors,
-              std::size_t nearest, std::size_t stride, const CurveLimits& limits)
+              std::size_t nearest, std::size_t stride)
 {
   for (int axis = 0; axis < 3; ++axis) {
     std::size_t looked_at = 0, alone = 0;
@@ -43,8 +49,8 @@ findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists
     }
     std::size_t even = 0;
     for (auto& [height, angles] : turns)
-      even += evenSteps (std::move (angles), limits);
-    if (static_cast<double> (even) >= limits.on_lines * static_cast<double> (positions.size ()))
+      even += evenSteps (std::move (angles));
+    if (static_cast<double> (even) >= ON_LINES * static_cast<double> (positions.size ()))
       return axis;
   }
   return {};
@@ -54,15 +60,21 @@ findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists
 
 Curves
 findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
-            std::size_t neighbors, double least_aspect, const ReachLimits& reach,
-            const CurveLimits& limits, const RunContext& run)
+            std::size_t neighbors, double least_aspect, const RunContext& run)
 {
-  const std::size_t n = positions.size (), stride = n / limits.samples + 1;
-  if (n < limits.least_points)
+  // At most this share of the points is joined to another curve. Parallel lines on a wavy sheet, up
+  // to 30 times as far apart as their points, have 0.91 or more of their points joined, 40 times
+  // 0.67, 60 times 0.42; single curves 0.02 or less, profiles with corners 20 to 40 times as far
+  // apart up to 0.28.
+  constexpr double JOINED = 0.35;
+  constexpr std::size_t SAMPLES = 1000;     // points looked at
+  constexpr std::size_t LEAST_POINTS = 100; // fewer lie along lines by chance
+  const std::size_t n = positions.size (), stride = n / SAMPLES + 1;
+  if (n < LEAST_POINTS)
     return {};
   const std::size_t looked_at = (n + stride - 1) / stride;
   const std::optional<int> axis =
-      findTurnAxis (positions, origin, geometry.neighbors, neighbors, stride, limits);
+      findTurnAxis (positions, origin, geometry.neighbors, neighbors, stride);
   std::vector<std::pair<Index, Line>> on_line;
   for (std::size_t i = 0; i < n; i += stride) {
     const auto p = static_cast<Index> (i);
@@ -71,11 +83,11 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
       on_line.emplace_back (p, *line);
   }
   const auto points = static_cast<double> (on_line.size ());
-  if (points < limits.on_lines * static_cast<double> (looked_at))
+  if (points < ON_LINES * static_cast<double> (looked_at))
     return {};
   const auto isBeside = [&] (const std::pair<Index, Line>& at, const Vector3d& position) {
     const Vector3d offset = position - positions[at.first];
-    return axis ? offset[*axis] != 0.0 : liesBeside (at.second, offset, reach);
+    return axis ? offset[*axis] != 0.0 : liesBeside (at.second, offset);
   };
   const auto isJoined = [&] (const std::pair<Index, Line>& at) {
     const Index p = at.first;
@@ -89,7 +101,7 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
     return false;
   };
   const auto joined = std::count_if (on_line.begin (), on_line.end (), isJoined);
-  if (static_cast<double> (joined) > limits.joined * points)
+  if (static_cast<double> (joined) > JOINED * points)
     return {};
   constexpr std::size_t NEAREST = 6; // three on either side: two steps away on average
   const KdTree tree (positions, run);

@@ -62,12 +62,11 @@ beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> kno
 }
 
 RowOf
-rowsBeside (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-            const PlaneLimits& limits)
+rowsBeside (const Points& points, const LocalPlanes& planes, const PlaneLimits& limits)
 {
   if (!planes.tree || !planes.normals.empty ())
     return [&planes] (Index p) { return planes.neighbors.row (p); };
-  BesideSearch search (points.workingPositions (), planes, limits.least_aspect, settings.reach);
+  BesideSearch search (points.workingPositions (), planes, limits.least_aspect);
   return [&planes, search = std::move (search), row = std::vector<Index> ()] (Index p) mutable {
     row.assign (planes.neighbors.row (p).begin (), planes.neighbors.row (p).end ());
     search.extend (p, row);
@@ -80,8 +79,8 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
                 const RunContext& run, const PlaneLimits& limits)
 {
   const Positions& positions = points.workingPositions ();
-  if (planes.tree) {
-    planes.beside = findBesideLines (positions, planes, limits.least_aspect, settings.reach, run);
+  if (settings.reach_beyond) {
+    planes.beside = findBesideLines (positions, planes, limits.least_aspect, run);
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
   planes.normals.resize (positions.size ());

@@ -37,8 +37,7 @@ beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> kno
 /// searches for each point on a line. For one thread.
 /// \param points, planes must outlive the result
 RowOf
-rowsBeside (const Points& points, const LocalPlanes& planes, const StarSettings& settings,
-            const PlaneLimits& limits);
+rowsBeside (const Points& points, const LocalPlanes& planes, const PlaneLimits& limits);
 
 /// Adds neighbours beside lines, and tangent planes by the working positions. O(n k). Planes through the
 /// 8 nearest neighbours, refitted to all neighbours near that plane, so that a second sheet within reach

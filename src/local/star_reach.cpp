@@ -7,6 +7,8 @@
 
 namespace pcl::floater {
 namespace {
+constexpr std::size_t ADDED = 8; // points at a time: about the first ring of an even sampling
+
 // Allows for the rounding of a circumcircle: points on it, as on grids, are not inside.
 constexpr double INSIDE = 1.0 - 1e-9;
 
@@ -52,16 +54,18 @@ reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double ra
 // a line are strewn, those nearest may be close to each other by chance, and tell nothing of the
 // steps around; the whole row, which goes to either side, does.
 double
-farthestFrom (const Positions& positions, Index p, Row nearest, double spacing,
-              const ReachLimits& limits)
+farthestFrom (const Positions& positions, Index p, Row nearest, double spacing)
 {
+  // Spacings. Rows of points are to be joined up to 30 times as far apart as the points in a row,
+  // and a third more for uneven rows.
+  constexpr double FARTHEST = 40.0;
   if (nearest.size () == 0)
-    return limits.farthest * spacing;
+    return FARTHEST * spacing;
   // With even steps on a line, the mean distance to the nearest six is two steps; in a plane, the row
   // gives less than this mean.
   const double steps = static_cast<double> (nearest.size ()) / 2.0;
   const double last = (positions[nearest[nearest.size () - 1]] - positions[p]).norm ();
-  return limits.farthest * std::max (spacing, 2.0 * last / steps);
+  return FARTHEST * std::max (spacing, 2.0 * last / steps);
 }
 
 } // namespace
@@ -93,12 +97,14 @@ lineThrough (const Positions& positions, Index p, Row row, double least_aspect)
 }
 
 bool
-liesBeside (const Line& line, const Vector3d& offset, const ReachLimits& limits)
+liesBeside (const Line& line, const Vector3d& offset)
 {
+  constexpr double LINE_SINE = 0.5;   // of the angle, 30 degrees, to points beside the line
+  constexpr double THICKNESSES = 4.0; // standard deviations; nearer points belong to the line
   const double along = line.direction.dot (offset);
   const double sqr_lateral = (offset - line.direction * along).squaredNorm ();
-  return sqr_lateral > limits.thicknesses * limits.thicknesses * line.mean_square &&
-         sqr_lateral >= limits.line_sine * limits.line_sine * offset.squaredNorm ();
+  return sqr_lateral > THICKNESSES * THICKNESSES * line.mean_square &&
+         sqr_lateral >= LINE_SINE * LINE_SINE * offset.squaredNorm ();
 }
 
 float
@@ -124,27 +130,27 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
   Vector3d ahead = Vector3d::Zero ();
   const auto is_beside = [&] (const Neighbor&, const Vector3d& position) {
     const Vector3d offset = position - here;
-    return liesBeside (*line, offset, limits_) &&
+    return liesBeside (*line, offset) &&
            (ahead.isZero (0.0) ||
             ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ());
   };
   const double farthest =
-      farthestFrom (positions_, p, around, static_cast<double> (planes_.spacing[p]), limits_);
+      farthestFrom (positions_, p, around, static_cast<double> (planes_.spacing[p]));
   // First on the side of the nearest one, then on the opposite side.
   double nearest = 0.0;
   for (std::vector<Neighbor>& found : found_on_) {
     const bool is_first = &found == found_on_.data ();
     // If all that the last point has found are beside this one, the nearest are no farther.
     double bound = 0.0;
-    const bool is_bounded = found.size () == limits_.added &&
+    const bool is_bounded = found.size () == ADDED &&
                             std::all_of (found.begin (), found.end (), [&] (const Neighbor& other) {
                               const Vector3d& position = positions_[other.point];
                               bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
                               return is_beside (other, position);
                             });
-    planes_.tree->nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest,
-                             limits_.added, is_beside, found);
-    planes_.tree->looked (here, reachOfSearch (found, limits_.added, farthest));
+    planes_.tree->nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest, ADDED,
+                             is_beside, found);
+    planes_.tree->looked (here, reachOfSearch (found, ADDED, farthest));
     if (found.empty ()) // beside the last line
       return is_first ? 0.0F : static_cast<float> (nearest);
     const double distance = std::sqrt (found.front ().sqr_distance);
@@ -160,7 +166,7 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
 
 BesideLines
 findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                 const ReachLimits& limits, const RunContext& run)
+                 const RunContext& run)
 {
   const std::size_t n = positions.size ();
   BesideLines beside;
@@ -169,7 +175,7 @@ findBesideLines (const Positions& positions, const LocalPlanes& planes, double l
   lists.offsets.assign (n + 1, 0);
   RangeLists<Index> ranges (n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    BesideSearch search (positions, planes, least_aspect, limits);
+    BesideSearch search (positions, planes, least_aspect);
     std::vector<Index> row;
     for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Row known = planes.neighbors.row (p);
@@ -245,16 +251,18 @@ StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_dis
 void
 StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star)
 {
+  // Of the angle, 75 degrees, between the middle of a gap and points accepted in it. Noise puts
+  // points of the same row beside it.
+  constexpr double MOST_COSINE = 0.26;
   const Vector3d& here = positions_[centre.point];
   const Vector3d ahead = inSpace (centre.frame, middleOfGap (star));
   const auto is_ahead = [&] (const Neighbor& neighbor, const Vector3d& position) {
     const double along = ahead.dot (position - here);
-    return along > 0.0 &&
-           along * along >= limits_.most_cosine * limits_.most_cosine * neighbor.sqr_distance &&
+    return along > 0.0 && along * along >= MOST_COSINE * MOST_COSINE * neighbor.sqr_distance &&
            isNew (centre, neighbor, neighbor.sqr_distance, sheets_);
   };
-  planes_.tree->nearestIf (here, ahead, centre.farthest, limits_.added, is_ahead, found_);
-  planes_.tree->looked (here, reachOfSearch (found_, limits_.added, centre.farthest));
+  planes_.tree->nearestIf (here, ahead, centre.farthest, ADDED, is_ahead, found_);
+  planes_.tree->looked (here, reachOfSearch (found_, ADDED, centre.farthest));
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -262,6 +270,10 @@ StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& s
 void
 StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b)
 {
+  // For points in circumcircles: normals turn by up to 37 degrees, and on an arc the offset leaves
+  // the plane by half of that, less noise. With the limits of near neighbours, two of 24 clean
+  // clouds included another sheet; these values fixed both, and are not certain.
+  constexpr SheetLimits CIRCLE_SHEET{0.25, 0.8};
   const double double_area = cross (a.offset, b.offset);
   if (double_area <= 0.0)
     return;
@@ -276,12 +288,12 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
   const auto is_inside = [&] (const Neighbor& neighbor, const Vector3d& position) {
     const Vector3d offset = position - here;
     return (unrolled (centre.frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
-           isNew (centre, neighbor, offset.squaredNorm (), limits_.circle_sheet);
+           isNew (centre, neighbor, offset.squaredNorm (), CIRCLE_SHEET);
   };
   const double radius = std::sqrt (sqr_radius);
-  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Vector3d::Zero (), radius,
-                           limits_.added, is_inside, found_);
-  planes_.tree->looked (here, radius + reachOfSearch (found_, limits_.added, radius));
+  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Vector3d::Zero (), radius, ADDED,
+                           is_inside, found_);
+  planes_.tree->looked (here, radius + reachOfSearch (found_, ADDED, radius));
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -290,14 +302,15 @@ bool
 StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
+  constexpr int ROUNDS = 8; // of one star, to limit the time
   added_.clear ();
   const double farthest = farthestFrom (positions_, p, planes_.neighbors.first (p, nearest),
-                                        static_cast<double> (planes_.spacing[p]), limits_);
+                                        static_cast<double> (planes_.spacing[p]));
   const double sqr_searched =
       nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();
   const Centre centre{p, frame, row, sqr_searched, farthest};
   bool gap_is_empty = false;
-  for (int round = 0; round < limits_.rounds && !star.empty (); ++round) {
+  for (int round = 0; round < ROUNDS && !star.empty (); ++round) {
     const std::size_t known = added_.size ();
     if (open && !gap_is_empty) {
       lookAhead (centre, star);

@@ -11,28 +11,6 @@
 #include "points/neighbors.h"
 
 namespace pcl::floater {
-/// Limits of far neighbours.
-struct ReachLimits
-{
-  double farthest = 40.0;    ///< spacings. From the task: rows of points up to 30 times as far
-                             ///< apart as the points in a row, and a third more for uneven rows
-  double most_cosine = 0.26; ///< of the angle, 75 degrees, between the middle of a gap and points
-                             ///< accepted in it. Noise puts points of the same row beside it
-  double line_sine = 0.5;    ///< of the angle, 30 degrees, between a line of points and points
-                             ///< accepted beside it
-  double thicknesses = 4.0;  ///< standard deviations across a line; nearer points belong to it
-  double gap_ratio = 1.8;    ///< an edge longer than this, in the larger reach of its ends, crosses
-                             ///< a hole. Measured on Delaunay triangulations: 999 of 1000 edges are
-                             ///< below 1.7 on jittered grids, Poisson disks, scan lines and steps
-                             ///< of density of 5 to 30; below 2.3 on uniformly random points
-  /// For points in circumcircles: normals turn by up to 37 degrees, and on an arc the offset leaves
-  /// the plane by half of that, less noise. With the limits of near neighbours, two of 24 clean
-  /// clouds included another sheet; these values fixed both, and are not certain.
-  SheetLimits circle_sheet{0.25, 0.8};
-  std::size_t added = 8; ///< points at a time: about the first ring of an even sampling
-  int rounds = 8;        ///< maximum number of rounds for one star, to limit the time
-};
-
 /// Weight of a star's reach, used as spacing where larger than the spacing. It is about the
 /// circumradius of a triangle between two rows of points; on even samplings it stays below the
 /// spacing.
@@ -45,7 +23,7 @@ lineThrough (const Positions& positions, Index p, Row row, double least_aspect);
 
 /// Whether a point, at an offset from one on a line, lies beside the line.
 bool
-liesBeside (const Line& line, const Vector3d& offset, const ReachLimits& limits);
+liesBeside (const Line& line, const Vector3d& offset);
 
 /// Neighbours beside the points whose nearest neighbours are collinear, as in scan lines.
 struct BesideLines
@@ -71,9 +49,8 @@ class BesideSearch
 {
 public:
   /// \param planes with neighbours, spacing and tree; must outlive this
-  BesideSearch (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                const ReachLimits& limits)
-      : positions_ (positions), planes_ (planes), least_aspect_ (least_aspect), limits_ (limits)
+  BesideSearch (const Positions& positions, const LocalPlanes& planes, double least_aspect)
+      : positions_ (positions), planes_ (planes), least_aspect_ (least_aspect)
   {
   }
 
@@ -85,7 +62,6 @@ private:
   const Positions& positions_;
   const LocalPlanes& planes_;
   double least_aspect_;
-  ReachLimits limits_;
   std::array<std::vector<Neighbor>, 2> found_on_; // the sides of the last point on a line
 };
 
@@ -93,7 +69,7 @@ private:
 /// \param planes with neighbours, spacing and tree
 BesideLines
 findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                 const ReachLimits& limits, const RunContext& run);
+                 const RunContext& run);
 
 /// Appends lists to others, row by row, in place. O(entries).
 void
@@ -116,9 +92,8 @@ class StarReach
 {
 public:
   /// \param positions, planes must outlive this
-  StarReach (const Positions& positions, const LocalPlanes& planes, const SheetLimits& sheets,
-             const ReachLimits& limits)
-      : positions_ (positions), planes_ (planes), sheets_ (sheets), limits_ (limits)
+  StarReach (const Positions& positions, const LocalPlanes& planes, const SheetLimits& sheets)
+      : positions_ (positions), planes_ (planes), sheets_ (sheets)
   {
   }
 
@@ -152,7 +127,6 @@ private:
   const Positions& positions_;
   const LocalPlanes& planes_;
   SheetLimits sheets_;
-  ReachLimits limits_;
   PlanarStar planar_star_;
   std::vector<Index> added_;
   std::vector<Neighbor> found_;

@@ -26,7 +26,7 @@ public:
         beyond_ (beyond)
   {
     if (beyond != nullptr)
-      reach_.emplace (positions, *beyond, settings.limits, settings.reach);
+      reach_.emplace (positions, *beyond, settings.limits);
   }
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
@@ -232,6 +232,10 @@ Stars
 finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
              const StarSettings& settings, const RunContext& run)
 {
+  // An edge longer than this, in the larger reach of its ends, crosses a hole. Measured on Delaunay
+  // triangulations: 999 of 1000 edges are below 1.7 on jittered grids, Poisson disks, scan lines
+  // and steps of density of 5 to 30; below 2.3 on uniformly random points.
+  constexpr double GAP_RATIO = 1.8;
   const std::size_t n = positions.size ();
   begun.reach = largestAround (begun.reach, planes.neighbors, run);
   if (begun.far_neighbors.ids.empty ())
@@ -248,7 +252,7 @@ finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
       far.clear ();
       std::copy_if (all_far.begin (), all_far.end (), std::back_inserter (far), [&] (Index q) {
         const auto reach = static_cast<double> (std::max (begun.reach[p], begun.reach[q]));
-        return (positions[q] - positions[p]).norm () <= settings.reach.gap_ratio * reach;
+        return (positions[q] - positions[p]).norm () <= GAP_RATIO * reach;
       });
       made.addFar (first, p, far);
       if (far.size () < all_far.size ()) {

@@ -22,8 +22,7 @@ struct StarSettings
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
   StarKind kind = StarKind::DELAUNAY;
   bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
-  ReachLimits reach{};
-  bool with_offsets = true; ///< keep offsets_in_plane: 16 bytes per entry
+  bool with_offsets = true;  ///< keep offsets_in_plane: 16 bytes per entry
   SheetLimits limits{};
 };
 

@@ -1,35 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All limits: the parameters of the stages that are no options. Each stage documents its own, with
-// their origin.
+// Limits: the parameters of the stages that are no options, but may be set. Each stage documents
+// its own, with their origin.
 #pragma once
 
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
 #include "floater/floater_method.h"
-#include "local/curves.h"
 #include "local/planes.h"
-#include "local/scatter.h"
 #include "mesh/check.h"
-#include "points/invalid_points.h"
 #include "points/net.h"
-#include "points/noise.h"
 #include "points/outliers.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
-  InvalidPointLimits invalid;
-  GrossOutlierLimits gross_outliers;
   NetLimits net;
   OutlierLimits outliers;
-  NoiseLimits noise;
-  ScatterLimits scatter;
-  CurveLimits curves;
   PlaneLimits planes;
   SheetLimits sheets;
-  ReachLimits reach;
   SurfaceLimits surface;
   ViewLimits view;
   LoopLimits loop;

@@ -6,6 +6,9 @@
 
 namespace pcl::floater {
 namespace {
+// Thresholds here are chosen by hand, far from what real surfaces have.
+constexpr std::size_t FEWEST_PIXELS = 10; // points at one place, or in cells of the height 0
+constexpr double NEAR_PLACE = 0.01; // of the range of the next point, and of most: all are within
 
 // The pixels without a return at a place: points within a range of it (the largest coordinate
 // difference), nearest first.
@@ -13,8 +16,9 @@ namespace {
 // \param most   the range within which most points are
 std::vector<std::pair<double, Index>>
 pixelsAt (const Positions& positions, const Vector3d& place, double range, double fewest,
-          double most, const InvalidPointLimits& limits)
+          double most)
 {
+  constexpr double APART = 3.0; // range of the next point, in spacings of a flat sheet of that size
   std::vector<std::pair<double, Index>> points;
   double beyond = std::numeric_limits<double>::infinity ();
   for (std::size_t row = 0; row < positions.size (); ++row) {
@@ -32,7 +36,7 @@ pixelsAt (const Positions& positions, const Vector3d& place, double range, doubl
   for (; static_cast<double> (points.size ()) >= fewest; points.pop_back ()) {
     const double last = points.back ().first;
     // A small object among far ones is larger than their spacing, or most of the cloud.
-    if (std::isfinite (beyond) && last <= limits.near * beyond && beyond > limits.apart * spacing &&
+    if (std::isfinite (beyond) && last <= NEAR_PLACE * beyond && beyond > APART * spacing &&
         (last == 0.0 || (last <= spacing && 2.0 * static_cast<double> (points.size ()) < size)))
       return points;
     beyond = last;
@@ -42,8 +46,10 @@ pixelsAt (const Positions& positions, const Vector3d& place, double range, doubl
 
 void
 findPixels (const Positions& positions, const Positions& sample, const Vector3d& origin,
-            const InvalidPointLimits& limits, InvalidPoints& found)
+            InvalidPoints& found)
 {
+  constexpr double OTHERS = 5.0; // times as many as at any other place, at least
+  constexpr double SHARE = 5e-3; // of the cloud, away from the origin, at least
   const auto size = static_cast<double> (positions.size ());
   // The place that most points of the sample have, how many have it, and the next.
   Vector3d frequent = Vector3d::Zero ();
@@ -61,18 +67,18 @@ findPixels (const Positions& positions, const Positions& sample, const Vector3d&
   for (const Vector3d& place : {origin, frequent}) {
     const bool is_origin = place == origin;
     const std::size_t others = place == frequent ? second : most_often; // of the sample
-    double fewest = static_cast<double> (limits.fewest);
+    double fewest = static_cast<double> (FEWEST_PIXELS);
     if (others > 1) // a single one tells nothing
-      fewest = std::max (fewest, limits.others * static_cast<double> (others) * size /
+      fewest = std::max (fewest, OTHERS * static_cast<double> (others) * size /
                                      static_cast<double> (sample.size ()));
     if (!is_origin)
-      fewest = std::max (fewest, limits.share * size);
+      fewest = std::max (fewest, SHARE * size);
     std::vector<double> ranges;
     for (const Vector3d& position : sample)
       ranges.push_back ((position - place).lpNorm<Eigen::Infinity> ());
     const double most = quantile (ranges, 0.75); // three quarters of the points are within
     const auto pixels =
-        pixelsAt (positions, place, is_origin ? limits.near * most : 0.0, fewest, most, limits);
+        pixelsAt (positions, place, is_origin ? NEAR_PLACE * most : 0.0, fewest, most);
     for (const auto& pixel : pixels)
       found.pixels.push_back (pixel.second);
     found.place = place;
@@ -84,8 +90,11 @@ findPixels (const Positions& positions, const Positions& sample, const Vector3d&
 // Cells without data have the lowest or the highest z.
 void
 findCells (const Positions& positions, const Eigen::AlignedBox3d& box, double shift,
-           const InvalidPointLimits& limits, InvalidPoints& found)
+           InvalidPoints& found)
 {
+  constexpr double GAP = 1.0; // to the others, in extents of these
+  // The same of the height 0, which may be a floor, and the least height of the others then.
+  constexpr double ZERO_GAP = 3.0, ZERO_HEIGHT = 100.0;
   constexpr double FLOAT = std::numeric_limits<float>::max ();
   constexpr double ROUNDING = 1e-9; // relative, of the shift
   constexpr std::array<double, 11> VALUES{-FLOAT, -32768.0, -32767.0, -99999.0, -9999.0, -999.0,
@@ -109,12 +118,12 @@ findCells (const Positions& positions, const Eigen::AlignedBox3d& box, double sh
     std::sort (heights.begin (), heights.end ());
     const double low = heights.front () + shift, high = heights.back () + shift;
     const double gap = std::max (low - value, value - high);
-    bool are_cells = high > low && gap > limits.gap * (high - low);
+    bool are_cells = high > low && gap > GAP * (high - low);
     if (value == 0.0 && are_cells) { // it may be a floor with boxes on it
       const auto distinct = std::unique (heights.begin (), heights.end ()) - heights.begin ();
-      are_cells = gap > limits.zero_gap * (high - low) && gap >= limits.zero_height &&
-                  cells.size () >= limits.fewest && cells.size () < heights.size () &&
-                  static_cast<std::size_t> (distinct) > limits.fewest;
+      are_cells = gap > ZERO_GAP * (high - low) && gap >= ZERO_HEIGHT &&
+                  cells.size () >= FEWEST_PIXELS && cells.size () < heights.size () &&
+                  static_cast<std::size_t> (distinct) > FEWEST_PIXELS;
     }
     if (!are_cells)
       continue;
@@ -128,8 +137,7 @@ findCells (const Positions& positions, const Eigen::AlignedBox3d& box, double sh
 } // namespace
 
 InvalidPoints
-findInvalidPoints (const Positions& positions, const Vector3d& shift,
-                   const InvalidPointLimits& limits)
+findInvalidPoints (const Positions& positions, const Vector3d& shift)
 {
   InvalidPoints found;
   Eigen::AlignedBox3d box;
@@ -145,11 +153,11 @@ findInvalidPoints (const Positions& positions, const Vector3d& shift,
   std::sort (sample.begin (), sample.end (), [] (const auto& a, const auto& b) {
     return std::lexicographical_compare (a.begin (), a.end (), b.begin (), b.end ());
   });
-  if (sample.empty () || positions.size () <= limits.fewest)
+  if (sample.empty () || positions.size () <= FEWEST_PIXELS)
     return found;
-  findPixels (positions, sample, Vector3d (-shift), limits, found);
+  findPixels (positions, sample, Vector3d (-shift), found);
   if (found.pixels.empty ())
-    findCells (positions, box, shift.z (), limits, found);
+    findCells (positions, box, shift.z (), found);
   return found;
 }
 

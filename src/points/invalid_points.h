@@ -6,19 +6,6 @@
 #include "core/types.h"
 
 namespace pcl::floater {
-/// Thresholds of invalid points. Chosen by hand, far from what real surfaces have.
-struct InvalidPointLimits
-{
-  std::size_t fewest = 10; ///< points at one place that are pixels without a return
-  double others = 5.0;     ///< they are more than this many times those at any other place
-  double near = 0.01;      ///< all within this fraction of the range of the next point, and of most
-  double apart = 3.0;      ///< range of the next point, in spacings of a flat sheet of that size
-  double share = 5e-3;     ///< away from the origin: least share of the cloud
-  double gap = 1.0;        ///< heights without data: gap to the others, in extents of these
-  double zero_gap = 3.0;   ///< the same of the height 0, which may be a floor
-  double zero_height = 100.0; ///< and the least height of the others then, in units of the cloud
-};
-
 /// Rows of points that are no measurements.
 struct InvalidPoints
 {
@@ -37,7 +24,6 @@ struct InvalidPoints
 /// Non-finite points are ignored. O(n); O(n log n) where the lowest or highest z is one.
 /// \param shift was subtracted from the positions
 InvalidPoints
-findInvalidPoints (const Positions& positions, const Vector3d& shift,
-                   const InvalidPointLimits& limits = {});
+findInvalidPoints (const Positions& positions, const Vector3d& shift);
 
 } // namespace pcl::floater

@@ -11,10 +11,14 @@
 namespace pcl::floater {
 namespace {
 constexpr std::size_t FEWEST = 10; // points that a residual needs
+// Residual in spacings of a scale from which on points are projected. Clean clouds, however thin,
+// sharp or coarse, measured up to 0.08; noise of 0.2 spacings in each coordinate measures 0.15 to
+// 0.19.
+constexpr double STRONG = 0.15;
 constexpr std::size_t CENTRES = 8; // noise is measured at one in this many points
 constexpr std::size_t AROUND = 10; // centres around a point
 constexpr std::size_t PROBES = 8;  // one in this many centres is measured first
-// Minimum share of noisy centres. Below, NoiseLimits::disturbed_share cannot be reached unless
+// Minimum share of noisy centres. Below, too few stars disagree for strong noise, unless
 // noise triples where it is smoothed, and all neighbours there disagree.
 constexpr double FEW = 0.01;
 constexpr float NO_SURFACE = std::numeric_limits<float>::max (); // points on lines at all scales
@@ -86,14 +90,19 @@ struct NoiseMeter
   const Positions& positions;
   const CsrLists& neighbors;
   std::array<const PointSample*, SCALES> samples;
-  const NoiseLimits& limits;
   std::vector<Neighbor> found{};
   std::vector<Vector3d> offsets{}, local{};
   std::vector<double> heights{};
 
   Place measure (Index p, bool is_unevenness_needed)
   {
-    const auto isRough = [this] (double one) { return one >= limits.strong; };
+    // Middle over largest eigenvalue of the points; below, they lie on a line, and their residual
+    // is meaningless.
+    constexpr double LEAST_ASPECT = 0.02;
+    // Factor of the residual in spacings, at a larger scale. Between 0.5 (noise) and 1 (crease), a
+    // standard error of 20 points nearer to noise.
+    constexpr double FALLS_TO = 0.7;
+    const auto isRough = [] (double one) { return one >= STRONG; };
     std::size_t lines = 0;
     std::array<double, SCALES> residual{}, relative{}, half{}, whole{};
     const double nearest_spacing = spacingOf (positions, p, neighbors.row (p));
@@ -114,12 +123,12 @@ struct NoiseMeter
       for (std::size_t i = 1; i <= SPACING_NEIGHBORS; ++i)
         spacing += offsets[i].norm () / static_cast<double> (SPACING_NEIGHBORS);
       const PrincipalAxes axes = axesOfOffsets ();
-      if (axes.spread[1] * axes.spread[1] < limits.least_aspect * axes.spread[2] * axes.spread[2]) {
+      if (axes.spread[1] * axes.spread[1] < LEAST_ASPECT * axes.spread[2] * axes.spread[2]) {
         ++lines;
         continue;
       }
       residual[scale] = quadricResidual (offsets, axes);
-      if (residual[scale] >= limits.strong * spacing && keepOwnSheet (axes, nearest_spacing)) {
+      if (residual[scale] >= STRONG * spacing && keepOwnSheet (axes, nearest_spacing)) {
         if (offsets.size () < FEWEST)
           continue;
         residual[scale] = quadricResidual (offsets, axesOfOffsets ());
@@ -130,7 +139,7 @@ struct NoiseMeter
     for (std::size_t scale = 0; scale + 1 < SCALES; ++scale)
       for (std::size_t larger = scale + 1; larger < SCALES; ++larger)
         if (isRough (relative[scale]) && relative[larger] >= 0.0 &&
-            relative[larger] < limits.falls_to * relative[scale])
+            relative[larger] < FALLS_TO * relative[scale])
           noise = std::max (noise, residual[scale]);
     float flattest = lines == SCALES ? NO_SURFACE : -1.0F;
     for (const double value : relative)
@@ -178,6 +187,7 @@ private:
   // \return whether there are two
   bool keepOwnSheet (const PrincipalAxes& axes, double spacing)
   {
+    constexpr double SHEET_GAP = 0.7; // spacings; two sheets at least so far apart are not noise
     local.clear ();
     heights.clear ();
     for (const Vector3d& offset : offsets) {
@@ -193,7 +203,7 @@ private:
         gap = heights[i] - heights[i - 1];
         below = i;
       }
-    if (below == 0 || gap < limits.sheet_gap * spacing ||
+    if (below == 0 || gap < SHEET_GAP * spacing ||
         gap < std::max (heights[below - 1] - heights.front (), heights.back () - heights[below]))
       return false;
     // Terraces lie side by side: their centres are farther apart than their points spread, less the
@@ -225,9 +235,10 @@ struct Places
 };
 
 Places
-measurePlaces (const Positions& positions, const CsrLists& neighbors, const NoiseLimits& limits,
-               const RunContext& run)
+measurePlaces (const Positions& positions, const CsrLists& neighbors, const RunContext& run)
 {
+  // Points; if there are fewer, unevenness is not measured at all.
+  constexpr std::size_t LEAST_UNEVEN = 100;
   const PointSample quarter = takeSample (positions, STRIDES[1], run),
                     sixteenth = takeSample (positions, STRIDES[2], run);
   const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
@@ -236,18 +247,18 @@ measurePlaces (const Positions& positions, const CsrLists& neighbors, const Nois
   for (const std::size_t stride : {PROBES, std::size_t{1}}) {
     const std::size_t count = (centres + stride - 1) / stride;
     parallelRanges (run, count, [&] (std::size_t first, std::size_t last) {
-      NoiseMeter meter{positions, neighbors, {nullptr, &quarter, &sixteenth}, limits};
+      NoiseMeter meter{positions, neighbors, {nullptr, &quarter, &sixteenth}};
       for (std::size_t i = first * stride; i < last * stride; i += stride)
         places.at_centre[i] = meter.measure (static_cast<Index> (i * CENTRES), places.are_uneven);
     });
     std::size_t noisy = 0, uneven = 0;
     for (const Place& place : places.at_centre) {
       noisy += place.noise > 0.0F ? 1 : 0;
-      uneven += static_cast<double> (place.unevenness) >= limits.uneven ? 1 : 0;
+      uneven += static_cast<double> (place.unevenness) >= UNEVEN ? 1 : 0;
     }
     places.are_noisy =
         places.are_noisy && static_cast<double> (noisy) >= FEW * static_cast<double> (count);
-    places.are_uneven = places.are_uneven && uneven * stride * CENTRES >= limits.least_uneven;
+    places.are_uneven = places.are_uneven && uneven * stride * CENTRES >= LEAST_UNEVEN;
     if (!places.are_noisy && !places.are_uneven)
       break;
   }
@@ -257,15 +268,14 @@ measurePlaces (const Positions& positions, const CsrLists& neighbors, const Nois
 } // namespace
 
 Noise
-measureNoise (const Positions& positions, const CsrLists& neighbors, const NoiseLimits& limits,
-              const RunContext& run)
+measureNoise (const Positions& positions, const CsrLists& neighbors, const RunContext& run)
 {
   const std::size_t n = positions.size ();
   Noise noise;
   noise.at_point.assign (n, 0.0F);
   if (n < STRIDES.back () * LOOKED_AT)
     return noise;
-  const Places places = measurePlaces (positions, neighbors, limits, run);
+  const Places places = measurePlaces (positions, neighbors, run);
   if (!places.are_noisy && !places.are_uneven)
     return noise;
   const PointSample centres = takeSample (positions, CENTRES, run);
@@ -296,13 +306,14 @@ measureNoise (const Positions& positions, const CsrLists& neighbors, const Noise
   }
   if (!places.are_noisy)
     return noise;
-  noise.at_point = around (&Place::noise, limits.quantile);
+  // Within a terrace of quantized depth everything is flat.
+  noise.at_point = around (&Place::noise, 0.9);
   std::vector<float> relative (n, 0.0F);
   for (std::size_t p = 0; p < n; ++p) {
     // A caller's search may find no neighbours: no spacing.
     const double spacing = spacingOf (positions, static_cast<Index> (p), neighbors.row (p));
     const float here = std::exchange (noise.at_point[p], 0.0F);
-    if (here == 0.0F || spacing == 0.0 || here < limits.strong * spacing)
+    if (here == 0.0F || spacing == 0.0 || here < STRONG * spacing)
       continue;
     noise.at_point[p] = here;
     relative[p] = static_cast<float> (here / spacing);
@@ -328,8 +339,16 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, double distur
 
 void
 keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
-               const std::vector<float>& after, const NoiseLimits& limits, Noise& noise)
+               const std::vector<float>& after, Noise& noise)
 {
+  // Noise explains the disagreement of the stars in a region if projection leaves at most this
+  // share of it. It leaves 0.34 or less of sheets with noise of up to one spacing, 0.4 of noise of
+  // 1.5 spacings, 0.54 or more of two walls, blades, thin tubes, and noise of 3 spacings.
+  constexpr double UNEXPLAINED = 0.5;
+  // Or if agreement rises by so much: leaves, two walls with noise of half their distance, and
+  // noise of 2 spacings have no good mesh either way, but fewer crossings if projected. Thin
+  // things, where projection makes them, gain 0.065 or less.
+  constexpr double GAIN = 0.07;
   const std::size_t n = noise.at_point.size ();
   RegionPoints noisy{Flags (n), {}, std::vector<float> (n)};
   for (std::size_t p = 0; p < n; ++p) {
@@ -338,9 +357,9 @@ keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
   }
   noisy.is_counted = noisy.is_inside;
   Flags is_explained (n);
-  takeRegions (neighbors, noisy, 1, limits.gain, is_explained);
+  takeRegions (neighbors, noisy, 1, GAIN, is_explained);
   for (std::size_t p = 0; p < n; ++p) // less what it has to be
-    noisy.value[p] -= static_cast<float> (1.0 - limits.unexplained) * (1.0F - before[p]);
+    noisy.value[p] -= static_cast<float> (1.0 - UNEXPLAINED) * (1.0F - before[p]);
   takeRegions (neighbors, noisy, 1, 0.0, is_explained);
   noise.noisy_points = 0;
   for (std::size_t p = 0; p < n; ++p)
@@ -352,8 +371,11 @@ keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
 
 Positions
 projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const Noise& noise,
-                    const NoiseLimits& limits, const RunContext& run)
+                    const RunContext& run)
 {
+  // Of the ball for the plane, in the noise of its point: the mean of as many points has a fifth of
+  // the noise or less.
+  constexpr double RADIUS = 8.0;
   constexpr std::size_t MOST = 60; // points of a plane
   constexpr double NARROWNESS = 4.0;
   constexpr double OUTSIDE = 4.5; // standard deviations at which the weight vanishes
@@ -369,7 +391,7 @@ projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const
       return;
     const Row row = neighbors.first (p, LOOKED_AT);
     const double known = (positions[row[row.size () - 1]] - positions[p]).squaredNorm ();
-    const double radius = limits.radius * deviation;
+    const double radius = RADIUS * deviation;
     const double wanted = std::max (static_cast<double> (LOOKED_AT),
                                     static_cast<double> (row.size ()) * radius * radius / known);
     std::size_t scale = 0;

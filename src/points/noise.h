@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Noise of the points, each at its own scale, how uneven the cloud is around them, and regions: points of a kind
-// that hang together.
+// Noise of the points, each at its own scale, how uneven the cloud is around them, and regions:
+// points of a kind that hang together.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -11,49 +11,9 @@
 #include "points/points.h"
 
 namespace pcl::floater {
-/// Thresholds of noise.
-///
-/// A neighbourhood has a residual: the root mean square distance of its points to their
-/// least-squares quadric. Spacings double from one scale to the next, which has every fourth point.
-/// The residual of noise is constant, so relative to the spacing it halves. At a crease the
-/// relative residual is constant, and where a surface bends more than a quadric it rises (after
-/// Mitra and Nguyen 2003; Pauly, Keiser and Gross 2003).
-struct NoiseLimits
-{
-  double strong = 0.15;  ///< residual in spacings of a scale from which on points are projected.
-                         ///< Clean clouds, however thin, sharp or coarse, measured up to 0.08;
-                         ///< noise of 0.2 spacings in each coordinate measures 0.15 to 0.19
-  double falls_to = 0.7; ///< factor of the residual in spacings, at a larger scale. Between 0.5
-                         ///< (noise) and 1 (crease), a standard error of 20 points nearer to noise
-  double least_aspect = 0.02; ///< middle over largest eigenvalue of the points; below, they lie on
-                              ///< a line, and their residual is meaningless
-  double quantile = 0.9; ///< of the noise of the points around; within a terrace of quantized depth
-                         ///< everything is flat
-  double sheet_gap = 0.7; ///< spacings; two sheets at least so far apart are not noise
-  double radius = 8.0;    ///< of the ball for the plane that a point is projected on, in its noise:
-                          ///< the mean of as many points has a fifth of the noise or less
-  /// Mean, over all points, of the share of a noisy point's star neighbours that do not have it in
-  /// their stars. Generated boxes and sheets 2 spacings apart have up to 0.028, surfaces with noise
-  /// of 0.3 spacings 0.07, of 0.5 spacings 0.18. Clean clouds of the benchmark have at most 0.020,
-  /// its depth cameras at least 0.038. Chosen between these: close to both, and not certain.
-  double disturbed_share = 0.035;
-  /// The same share, from which on a cloud is too noisy for any mesh through its points, if
-  /// projection explains it nowhere: noise of 2 spacings has 0.23 or more. Clouds that make a mesh
-  /// without projection have up to 0.15.
-  double hopeless_share = 0.2;
-  /// Noise explains the disagreement of the stars in a region if projection leaves at most this
-  /// share of it. It leaves 0.34 or less of sheets with noise of up to one spacing, 0.4 of noise of
-  /// 1.5 spacings, 0.54 or more of two walls, blades, thin tubes, and noise of 3 spacings.
-  double unexplained = 0.5;
-  /// Or if agreement rises by so much: leaves, two walls with noise of half their distance, and noise
-  /// of 2 spacings have no good mesh either way, but fewer crossings if projected. Thin things, where
-  /// projection makes them, gain 0.065 or less.
-  double gain = 0.07;
-  /// Unevenness from which on a point may lie on no surface. Points strewn into a box or a ball
-  /// have 0.49 or more, sheets with noise of one spacing 0.37 or less.
-  double uneven = 0.38;
-  std::size_t least_uneven = 100; ///< points; if there are fewer, unevenness is not measured at all
-};
+/// Unevenness from which on a point may lie on no surface. Points strewn into a box or a ball have 0.49
+/// or more, sheets with noise of one spacing 0.37 or less.
+constexpr double UNEVEN = 0.38;
 
 /// The noise of a cloud.
 struct Noise
@@ -74,7 +34,13 @@ struct Noise
   bool is_strong = false;                                ///< see isStrong; set by the caller
 };
 
-/// Measures noise at every eighth point (probe), at three scales: its 20 nearest of all points, of
+/// Measures noise. A neighbourhood has a residual: the root mean square distance of its points to their
+/// least-squares quadric. Spacings double from one scale to the next, which has every fourth point.
+/// The residual of noise is constant, so relative to the spacing it halves. At a crease the
+/// relative residual is constant, and where a surface bends more than a quadric it rises (after
+/// Mitra and Nguyen 2003; Pauly, Keiser and Gross 2003).
+///
+/// Measured at every eighth point (probe), at three scales: its 20 nearest of all points, of
 /// every fourth, and of every sixteenth. Each point has the 90 % quantile of the 10 probes around
 /// it. Clouds of fewer than 320 points lack these scales, and have neither noise nor unevenness.
 /// If fewer than 1 % of the probes are noisy, there is no noise. A probe where all three scales are
@@ -82,14 +48,14 @@ struct Noise
 /// \param positions along a space-filling curve
 /// \param neighbors of each point, nearest first
 Noise
-measureNoise (const Positions& positions, const CsrLists& neighbors, const NoiseLimits& limits,
-              const RunContext& run);
+measureNoise (const Positions& positions, const CsrLists& neighbors, const RunContext& run);
 
 /// Whether points have to be projected before they are connected: enough are noisy, and their stars
 /// disagree. At creases and thin sheets of clean clouds points look noisy, but their stars agree.
 /// O(n).
-/// \param agreement       of the star of each point, see starAgreement
-/// \param disturbed_share see NoiseLimits
+/// \param agreement of the star of each point, see starAgreement
+/// \param disturbed_share mean, over all points, of the share of a noisy point's star neighbours
+///     that do not have it in their stars
 bool
 isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share);
 
@@ -100,15 +66,15 @@ isStrong (const Noise& noise, const std::vector<float>& agreement, double distur
 /// \param after  the same with projected points
 void
 keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
-               const std::vector<float>& after, const NoiseLimits& limits, Noise& noise);
+               const std::vector<float>& after, Noise& noise);
 
-/// Projects every noisy point on the plane of up to 60 points around it within NoiseLimits::radius,
+/// Projects every noisy point on the plane of up to 60 points around it within eight times its noise,
 /// weighted by distance. A second pass leaves out points far off the first plane, such as
 /// background behind an object. 3 microseconds for a noisy point.
 /// \param neighbors of each point, nearest first
 Positions
 projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const Noise& noise,
-                    const NoiseLimits& limits, const RunContext& run);
+                    const RunContext& run);
 
 /// Points of which those that hang together are judged together.
 struct RegionPoints

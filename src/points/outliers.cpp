@@ -29,8 +29,9 @@ medianPoint (const Positions& positions)
   return middle;
 }
 
-// Distances around a median point: the largest coordinate difference, as squares would overflow. An infinite
-// one is larger than all others.
+// At least half of the points, up to the first wide gap. Distances around a median point: the
+// largest coordinate difference, as squares would overflow. An infinite one is larger than all
+// others.
 struct Bulk
 {
   Vector3d centre = Vector3d::Zero ();
@@ -44,8 +45,9 @@ struct Bulk
 // median of all points that are not at the centre itself: more than half may be copies of one, such
 // as (0, 0, 0) for pixels without depth.
 Bulk
-findBulk (const Positions& positions, double gap)
+findBulk (const Positions& positions)
 {
+  constexpr double GAP = 1000.0; // ratio of consecutive distances; real surfaces stay far below
   Bulk bulk;
   bulk.centre = medianPoint (positions);
   std::vector<double> distances;
@@ -61,13 +63,13 @@ findBulk (const Positions& positions, double gap)
     return bulk;
   const double usual = median (distances);
   const auto beyond = std::partition (distances.begin (), distances.end (),
-                                      [&] (double distance) { return distance <= gap * usual; });
+                                      [&] (double distance) { return distance <= GAP * usual; });
   if (beyond == distances.end ())
     return bulk;
   double radius = *std::max_element (distances.begin (), beyond);
   std::sort (beyond, distances.end ());
   for (auto next = beyond; next != distances.end (); radius = *next++)
-    if (*next > gap * radius) {
+    if (*next > GAP * radius) {
       bulk.radius = radius;
       break;
     }
@@ -77,8 +79,10 @@ findBulk (const Positions& positions, double gap)
 // Keeps rows beyond the gap with too few distinct points near them for an object.
 std::vector<Index>
 keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> rows,
-              const RunContext& run, const GrossOutlierLimits& limits)
+              const RunContext& run)
 {
+  constexpr std::size_t OBJECT = 8; // smallest number of distinct points of an object
+  constexpr double NEAR = 1.0 / 32; // of the distance: such points may be one object
   const auto isBefore = [&] (Index a, Index b) {
     const Vector3d &p = positions[a], &q = positions[b];
     return std::lexicographical_compare (p.begin (), p.end (), q.begin (), q.end ());
@@ -94,10 +98,9 @@ keepIsolated (const Positions& positions, const Bulk& bulk, std::vector<Index> r
   Flags is_isolated (distinct.size (), 0);
   const KdTree tree (distinct, run);
   parallelPoints<std::vector<Neighbor>> (run, distinct.size (), [&] (Index i, auto& found) {
-    tree.nearest (distinct[i], limits.object, found); // includes the point itself
-    const double near = limits.near * distinct[i].norm ();
-    const bool is_alone =
-        found.size () < limits.object || std::sqrt (found.back ().sqr_distance) > near;
+    tree.nearest (distinct[i], OBJECT, found); // includes the point itself
+    const double near = NEAR * distinct[i].norm ();
+    const bool is_alone = found.size () < OBJECT || std::sqrt (found.back ().sqr_distance) > near;
     is_isolated[i] = is_alone ? 1 : 0;
   });
   std::vector<Index> isolated;
@@ -212,19 +215,20 @@ smallClusters (const CsrLists& arcs, std::size_t largest_cluster, const Flags& a
 } // namespace
 
 GrossOutliers
-findGrossOutliers (const Positions& positions, const RunContext& run,
-                   const GrossOutlierLimits& limits)
+findGrossOutliers (const Positions& positions, const RunContext& run)
 {
+  constexpr std::size_t FEWEST_POINTS = 21; // of a cloud
+  constexpr double STEPS = 8192.0; // of double precision in a spacing of the bulk, at least
   GrossOutliers found;
-  if (positions.size () < limits.fewest)
+  if (positions.size () < FEWEST_POINTS)
     return found;
-  const Bulk bulk = findBulk (positions, limits.gap);
-  if (!std::isfinite (bulk.radius) || bulk.points < limits.fewest)
+  const Bulk bulk = findBulk (positions);
+  if (!std::isfinite (bulk.radius) || bulk.points < FEWEST_POINTS)
     return found;
   // The bulk is a surface of at most this many points: their spacing is about the radius over their
   // root. A frame has 1 / epsilon steps across it.
   const double spacing = bulk.radius / std::sqrt (static_cast<double> (bulk.points));
-  const double largest_frame = spacing / (limits.steps * std::numeric_limits<double>::epsilon ());
+  const double largest_frame = spacing / (STEPS * std::numeric_limits<double>::epsilon ());
   std::vector<Index> beyond;
   for (std::size_t row = 0; row < positions.size (); ++row) {
     if (!positions[row].allFinite ())
@@ -235,7 +239,7 @@ findGrossOutliers (const Positions& positions, const RunContext& run,
     else if (distance > bulk.radius)
       beyond.push_back (static_cast<Index> (row));
   }
-  found.isolated = keepIsolated (positions, bulk, std::move (beyond), run, limits);
+  found.isolated = keepIsolated (positions, bulk, std::move (beyond), run);
   return found;
 }
 

@@ -8,18 +8,6 @@
 #include "core/types.h"
 
 namespace pcl::floater {
-/// Thresholds of gross outliers. Distances are the largest coordinate difference from the median of
-/// all points. The bulk is what surrounds it: at least half of the points, up to the first wide
-/// gap. Chosen by hand; real surfaces stay far below.
-struct GrossOutlierLimits
-{
-  double gap = 1000.0;     ///< ratio of consecutive distances that makes a wide gap
-  double near = 1.0 / 32;  ///< points within this fraction of their distance may be one object
-  std::size_t object = 8;  ///< smallest number of distinct points of an object
-  std::size_t fewest = 21; ///< smallest cloud that is examined
-  double steps = 8192.0;   ///< least number of double-precision steps in a spacing of the bulk
-};
-
 /// Rows of points beyond the bulk, ascending; the lists are disjoint.
 struct GrossOutliers
 {
@@ -34,8 +22,7 @@ struct GrossOutliers
 /// points. O(n), 60 nanoseconds and 8 bytes per point; plus a neighbour search among the points
 /// beyond a gap.
 GrossOutliers
-findGrossOutliers (const Positions& positions, const RunContext& run,
-                   const GrossOutlierLimits& limits = {});
+findGrossOutliers (const Positions& positions, const RunContext& run);
 
 /// Thresholds of points off any surface. Distances are in reaches: the distance of a point to its
 /// 6th nearest neighbour, about 1.3 spacings. Chosen on seeded clouds with outliers strewn into

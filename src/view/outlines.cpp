@@ -7,8 +7,8 @@
 
 namespace pcl::floater {
 namespace {
-constexpr std::size_t FEWEST_RAYS =
-    3; // to either surface; and of a patch at outlines, if it counts
+// To either surface; and of a patch at outlines, if it counts.
+constexpr std::size_t FEWEST_RAYS = 3;
 
 using Place = Vector2d;
 

@@ -224,11 +224,11 @@ private:
   std::optional<Found> refineBy (Viewpoint viewpoint, double step, Measure measure) const
   {
     constexpr std::size_t FIRST = 3; // rounds
-    constexpr std::size_t ROUNDS =
-        7; // each with new patches. With 9, as many of 278 generated scans were
-           // recognised, and none was better
+    // Each with new patches. With 9, as many of 278 generated scans were recognised, and none was
+    // better.
+    constexpr std::size_t ROUNDS = 7;
     constexpr std::size_t EVALUATIONS = 400; // in each round
-    constexpr double LENIENT = 1.5;          // in the first; real scans have up to 1.1 at the start
+    constexpr double LENIENT = 1.5; // in the first ones; real scans have up to 1.1 at the start
     const bool by_density = measure == Measure::DENSITY;
     for (std::size_t round = 0; round < ROUNDS; ++round) {
       const bool is_first = round < FIRST;

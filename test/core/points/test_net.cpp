@@ -149,7 +149,7 @@ struct Cloud
   {
   }
 
-  Noise noise () const { return measureNoise (points.positions, neighbors, {}, 1); }
+  Noise noise () const { return measureNoise (points.positions, neighbors, 1); }
   double share (std::size_t count) const
   {
     return static_cast<double> (count) / static_cast<double> (points.size ());
@@ -157,7 +157,7 @@ struct Cloud
   double noisyShare () const { return share (noise ().noisy_points); }
   Positions projected () const
   {
-    return projectNoisyPoints (points.positions, neighbors, noise (), {}, 1);
+    return projectNoisyPoints (points.positions, neighbors, noise (), 1);
   }
 };
 
@@ -207,7 +207,7 @@ TEST (Noise, IsKeptInRegionsThatItExplains)
   const std::vector<float> before (20, 0.8F);
   std::vector<float> after (20, 0.95F);
   std::fill (after.begin () + 10, after.end (), 0.85F);
-  keepExplained (chains, before, after, {}, noise);
+  keepExplained (chains, before, after, noise);
   EXPECT_EQ (noise.noisy_points, 9U);
   EXPECT_EQ (noise.at_point[9], 1.0F);
   EXPECT_EQ (noise.at_point[10], 0.0F);
@@ -223,8 +223,8 @@ TEST (Noise, ThinSheetsAreNone)
 
 TEST (Noise, DegenerateClouds)
 {
-  EXPECT_EQ (measureNoise ({}, CsrLists (), {}, 1).noisy_points, 0U);
-  EXPECT_TRUE (projectNoisyPoints ({}, {}, {}, {}, 1).empty ());
+  EXPECT_EQ (measureNoise ({}, CsrLists (), 1).noisy_points, 0U);
+  EXPECT_TRUE (projectNoisyPoints ({}, {}, {}, 1).empty ());
   for (const std::size_t count : {1U, 2U, 3U, 4U, 5U, 30U, 319U, 320U, 1000U}) {
     Positions line;
     for (std::size_t i = 0; i < count; ++i)
