@@ -227,14 +227,13 @@ Boundary
 findLoop (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
   const BoundaryOptions& options = request.options.disc.boundary;
-  const LoopLimits& limits = request.limits.loop;
   request.run.beginStage (Stage::BOUNDARY);
   const bool is_given = !options.loop.empty ();
   Boundary boundary = is_given ? givenLoop (points, options.loop)
                       : options.method == BoundaryMethod::TWO_SEGMENTS
-                          ? publishedLoop (points, geometry, options, request.run, limits)
+                          ? publishedLoop (points, geometry, options, request.run)
                           : loopOfSurface (points, geometry, request);
-  checkBoundary (points, geometry.spacing, is_given, boundary, limits);
+  checkBoundary (points, geometry.spacing, is_given, boundary);
   return boundary;
 }
 
@@ -309,8 +308,8 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                       ? "asked for"
                                       : "its boundary loop is given";
   Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
-                        {options, starSettings (request), request.limits.disc,
-                         request.limits.surface.finish, facingHints (points, request)},
+                        {options, starSettings (request), request.limits.surface.finish,
+                         facingHints (points, request)},
                         request.run);
   reportDisc (points, disc, result.report);
   if (disc.problem)

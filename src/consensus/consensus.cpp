@@ -9,6 +9,29 @@
 
 namespace pcl::floater {
 namespace {
+// Thresholds of candidates of 1, 2 and 3 votes, chosen by hand: largest circumradius over spacing, and
+// smallest normal agreement. Without the circumradii, 545 clouds have a fifth more pairs of crossing
+// triangles. Without the normal agreement they have as many: an airborne scan of trees has a sixth
+// more, branches of few points less than half.
+constexpr std::array<float, 3> LARGEST_CIRCUMRADIUS{2.0F, 2.0F, 3.0F};
+constexpr std::array<float, 3> LEAST_AGREEMENT{0.4F, 0.2F, 0.1F};
+
+// Number of classes of normal agreement, evenly spaced in the cosine from 1 to 0.
+constexpr std::size_t AGREEMENT_RANKS = 32;
+
+// Classes in which a candidate of three votes is sure, as most triangles are: it enters the consensus
+// unless it contradicts the orientation. Cosines above 0.875.
+constexpr std::size_t SURE_RANKS = 4;
+
+// Class of a candidate's normal agreement: 0 for the best, below AGREEMENT_RANKS.
+std::size_t
+normalAgreementRank (const Candidate& candidate)
+{
+  const auto steps = static_cast<std::size_t> ((1.0F - candidate.normal_agreement) *
+                                               static_cast<float> (AGREEMENT_RANKS));
+  return std::min (steps, AGREEMENT_RANKS - 1);
+}
+
 // Sets the normal agreement and `clockwise` from the corners.
 void
 setNormalAgreement (const Positions& positions, const Normals& normals, Candidate& candidate)
@@ -142,8 +165,7 @@ private:
 
 std::vector<Candidate>
 findCandidates (const Positions& positions, const Stars& stars, const Normals& normals,
-                const std::vector<float>& spacing, const CandidateLimits& limits,
-                const RunContext& run)
+                const std::vector<float>& spacing, const RunContext& run)
 {
   RangeLists<Candidate> ranges (positions.size ());
   parallelRanges (run, positions.size (), [&] (std::size_t first, std::size_t last) {
@@ -169,8 +191,8 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
             static_cast<float> (circumradius (positions[p], positions[q], positions[r]) / step);
         setNormalAgreement (positions, normals, candidate);
         const std::size_t rank = candidate.votes - 1U;
-        if (candidate.circumradius_ratio <= limits.circumradius_ratio[rank] &&
-            candidate.normal_agreement >= limits.normal_agreement[rank])
+        if (candidate.circumradius_ratio <= LARGEST_CIRCUMRADIUS[rank] &&
+            candidate.normal_agreement >= LEAST_AGREEMENT[rank])
           range.push_back (candidate);
       }
     }
@@ -179,8 +201,8 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
 }
 
 Consensus
-buildConsensus (const Positions& positions, std::vector<Candidate> candidates,
-                const CandidateLimits& limits, Normals& normals, const RunContext& run)
+buildConsensus (const Positions& positions, std::vector<Candidate> candidates, Normals& normals,
+                const RunContext& run)
 {
   // In the order of their offers: those of three votes by their class of normal agreement, so that the
   // orientation spreads along triangles that agree best, like a minimum spanning forest.
@@ -189,7 +211,7 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates,
       emit (candidates[c].votes == 3 ? normalAgreementRank (candidates[c]) : AGREEMENT_RANKS, c);
   });
   std::vector<Index>& ids = order.ids;
-  const std::size_t doubtful = order.offsets[limits.sure_ranks]; // from there on
+  const std::size_t doubtful = order.offsets[SURE_RANKS]; // from there on
   const std::size_t fewer_votes = order.offsets[AGREEMENT_RANKS];
   run.poll ();
   std::sort (ids.begin () + static_cast<std::ptrdiff_t> (fewer_votes), ids.end (),

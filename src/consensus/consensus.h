@@ -21,41 +21,13 @@ struct Candidate
   float normal_agreement;   ///< least |cosine| between its normal and those of its corners
 };
 
-/// Number of classes of normal agreement, evenly spaced in the cosine from 1 to 0.
-constexpr std::size_t AGREEMENT_RANKS = 32;
-
-/// Class of a candidate's normal agreement: 0 for the best, below AGREEMENT_RANKS.
-inline std::size_t
-normalAgreementRank (const Candidate& candidate)
-{
-  const auto steps = static_cast<std::size_t> ((1.0F - candidate.normal_agreement) *
-                                               static_cast<float> (AGREEMENT_RANKS));
-  return steps < AGREEMENT_RANKS ? steps : AGREEMENT_RANKS - 1;
-}
-
-/// Thresholds of candidates, stricter for fewer votes, chosen by hand. Without the circumradii, 545
-/// clouds have a fifth more pairs of crossing triangles. Without the normal agreement they have as
-/// many: an airborne scan of trees has a sixth more, branches of few points less than half.
-struct CandidateLimits
-{
-  std::array<float, 3> circumradius_ratio{2.0F, 2.0F, 3.0F}; ///< maximum for 1, 2 and 3 votes;
-                                                             ///< circumradii over spacings
-  std::array<float, 3> normal_agreement{0.4F, 0.2F, 0.1F};   ///< minimum for 1, 2 and 3 votes;
-                                                             ///< cosines
-  std::size_t sure_ranks = 4; ///< classes of normal agreement in which a candidate of three votes
-                              ///< is sure, as most triangles are: it enters the consensus unless it
-                              ///< contradicts the orientation. At most AGREEMENT_RANKS; 4: cosines
-                              ///< above 0.875
-};
-
-/// The triangles of all stars that are within the limits, each once, ordered by their first corner
+/// The triangles of all stars that are neither too large nor too steep, each once, ordered by their first corner
 /// and around it. O(entries of the stars).
 /// \param normals for the normal agreement: those of the stars, or others on the same side
 /// \param spacing of each point (see localSpacing)
 std::vector<Candidate>
 findCandidates (const Positions& positions, const Stars& stars, const Normals& normals,
-                const std::vector<float>& spacing, const CandidateLimits& limits,
-                const RunContext& run);
+                const std::vector<float>& spacing, const RunContext& run);
 
 /// Sets of points whose normals are oriented relative to each other. A triangle joins the sets of
 /// its corners, by its orientation relative to each normal. Amortized almost O(1) for each call
@@ -92,15 +64,14 @@ private:
 };
 
 /// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
-/// are connected by edges. An orientation that spreads round such a surface contradicts itself
+/// are connected by edges, if it is long enough. An orientation that spreads round such a surface contradicts itself
 /// along a whole row across it; a wrong triangle between two sheets stands alone, and where thin
 /// sheets are glued, there are many short rows. Fails for strips less than about 4 spacings wide:
 /// their rows are too short. O(m log m) for m triangles.
 /// \param contradicting see Consensus::seam
-/// \param shortest_seam triangles; see ConsensusLimits
 /// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
 std::vector<Triangle>
-findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam);
+findOrientationSeam (const std::vector<Triangle>& contradicting);
 
 /// Consistently oriented triangles. Their sectors around each point do not overlap in its tangent
 /// plane, so every edge has one or two. A point may still have several fans (see manifoldPart).
@@ -121,8 +92,8 @@ struct Consensus
 /// \param normals    in: unit normals by which the candidates were found; out: oriented like the
 ///     triangles
 Consensus
-buildConsensus (const Positions& positions, std::vector<Candidate> candidates,
-                const CandidateLimits& limits, Normals& normals, const RunContext& run);
+buildConsensus (const Positions& positions, std::vector<Candidate> candidates, Normals& normals,
+                const RunContext& run);
 
 /// Keeps the fan of most votes around every point, and removes small islands. An island is an open
 /// component with points of a larger component among its nearest neighbours: it lies in a hole of

@@ -6,24 +6,25 @@
 
 namespace pcl::floater {
 namespace {
+// Triangles; smaller islands are dropped (see manifoldPart). Chosen by hand; no measurement is recorded.
+constexpr std::size_t SMALLEST_ISLAND = 32;
+
 // Makes the manifold part of the consensus, before its holes are filled, and orients the normals like
 // it. O(n + m log m) for m doubtful candidates.
 // \param geometry as of makeSurface ()
 void
 makeConsensusMesh (Surface& surface, const Positions& positions, LocalGeometry& geometry,
-                   const ConsensusLimits& limits, const RunContext& run)
+                   const RunContext& run)
 {
   // Mean normals at sharp edges, where both faces are visible from them.
   Normals normals = std::move (geometry.stars.normals);
   Normals smoothed = smoothedNormals (positions, geometry.neighbors, normals, run);
-  std::vector<Candidate> candidates = findCandidates (positions, geometry.stars, smoothed,
-                                                      geometry.spacing, limits.candidates, run);
+  std::vector<Candidate> candidates =
+      findCandidates (positions, geometry.stars, smoothed, geometry.spacing, run);
   geometry.stars = {};
-  Consensus consensus =
-      buildConsensus (positions, std::move (candidates), limits.candidates, smoothed, run);
-  surface.orientation_seam = findOrientationSeam (consensus.seam, limits.shortest_seam);
-  surface.mesh =
-      manifoldPart (std::move (consensus), geometry.neighbors, limits.smallest_island, run);
+  Consensus consensus = buildConsensus (positions, std::move (candidates), smoothed, run);
+  surface.orientation_seam = findOrientationSeam (consensus.seam);
+  surface.mesh = manifoldPart (std::move (consensus), geometry.neighbors, SMALLEST_ISLAND, run);
   for (std::size_t p = 0; p < normals.size (); ++p)
     if (normals[p].dot (smoothed[p]) < 0.0F)
       normals[p] = -normals[p];
@@ -96,7 +97,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   const SurfaceLimits& limits = settings.limits;
   Surface surface;
   run.beginStage (Stage::CONSENSUS);
-  makeConsensusMesh (surface, points.workingPositions (), geometry, limits.consensus, run);
+  makeConsensusMesh (surface, points.workingPositions (), geometry, run);
 
   run.beginStage (Stage::HOLES);
   closeHoles (surface, points, geometry, settings.holes, limits, run);

@@ -11,22 +11,9 @@
 #include "points/points.h"
 
 namespace pcl::floater {
-/// Limits of the consensus mesh.
-struct ConsensusLimits
-{
-  CandidateLimits candidates;
-  std::size_t smallest_island = 32; ///< triangles; smaller islands are dropped (see manifoldPart).
-                                    ///< Chosen by hand; no measurement is recorded
-  std::size_t shortest_seam = 8;    ///< triangles; a shorter row is no sign of a one-sided surface
-                                    ///< (see findOrientationSeam). Measured: scans of two-sided
-                                    ///< surfaces had rows of up to 5, Moebius strips 4 spacings
-                                    ///< wide rows of 8, and strips 12 spacings wide rows of 37
-};
-
 /// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {
-  ConsensusLimits consensus;
   OpenLoopLimits open_loops;
   HoleWideningLimits hole_widening;
   HoleFillingLimits hole_filling;

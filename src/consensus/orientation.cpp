@@ -88,8 +88,11 @@ Orientation::turn (Normals& normals, const RunContext& run)
 }
 
 std::vector<Triangle>
-findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t shortest_seam)
+findOrientationSeam (const std::vector<Triangle>& contradicting)
 {
+  // Scans of two-sided surfaces had rows of up to 5, Moebius strips 4 spacings wide rows of 8, and
+  // strips 12 spacings wide rows of 37.
+  constexpr std::size_t SHORTEST_SEAM = 8;
   DisjointSets rows (contradicting.size ());
   std::map<std::pair<Index, Index>, Index> triangle_at; // each edge
   for (Index t = 0; t < contradicting.size (); ++t)
@@ -105,7 +108,7 @@ findOrientationSeam (const std::vector<Triangle>& contradicting, std::size_t sho
   std::vector<Triangle> row;
   // Of that length. Moebius strips, noisy or at random, have up to 4.1, glued leaves 6.4.
   constexpr std::size_t MOST_ROWS = 5;
-  if (longest == length.end () || *longest < shortest_seam ||
+  if (longest == length.end () || *longest < SHORTEST_SEAM ||
       MOST_ROWS * *longest < contradicting.size ())
     return row;
   const auto root = static_cast<Index> (longest - length.begin ());

@@ -14,6 +14,14 @@ namespace {
 constexpr double SHORTEST_STEP = 4e-6;
 constexpr double SIDE_CURVATURE = 1e-3;
 
+// Smallest share of all points connected with the boundary loop; below, the cloud counts as several
+// components. Not derived from data, and not certain.
+constexpr double LEAST_REACHED_SHARE = 0.5;
+
+// Share of all edges: if more are folded after the flips, the surface is no disc. On 24 clouds, discs
+// had up to 0.01 and closed surfaces that were laid out as discs 0.04 or more.
+constexpr double LARGEST_FOLD_SHARE = 0.03;
+
 // Places the points first to last - 1 of the loop, which may go on at its beginning, on a curve whose
 // end is point `last`.
 // \param chords       chords[i] is the step from loop point i to the next one
@@ -139,7 +147,7 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
 
 Parameterization
 parameterize (const Positions& positions, Stars stars, const std::vector<Index>& loop,
-              const DiscOptions& options, const RunContext& run, const DiscLimits& limits)
+              const DiscOptions& options, const RunContext& run)
 {
   Parameterization result;
   run.beginStage (Stage::WEIGHTS);
@@ -151,7 +159,7 @@ parameterize (const Positions& positions, Stars stars, const std::vector<Index>&
   const auto unreachable =
       static_cast<std::size_t> (std::count (reachable.begin (), reachable.end (), 0));
   const double reached = static_cast<double> (positions.size () - unreachable);
-  if (reached < limits.least_reached_share * static_cast<double> (positions.size ())) {
+  if (reached < LEAST_REACHED_SHARE * static_cast<double> (positions.size ())) {
     result.problem = {
         RunStatus::UNREACHABLE,
         std::to_string (unreachable) + " of " + std::to_string (positions.size ()) +
@@ -211,8 +219,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
   // The normals are needed longer than the stars.
   Normals normals = geometry.stars.normals;
-  disc.parameterization =
-      parameterize (positions, std::move (geometry.stars), loop, options, run, settings.limits);
+  disc.parameterization = parameterize (positions, std::move (geometry.stars), loop, options, run);
   geometry.stars = {};
   geometry.stars.normals = std::move (normals);
   disc.problem = disc.parameterization.problem;
@@ -229,7 +236,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   run.beginStage (Stage::FLIPS);
   FinishSettings finish;
   finish.flip_edges = settings.options.flip_edges;
-  finish.largest_fold_share = settings.limits.largest_fold_share;
+  finish.largest_fold_share = LARGEST_FOLD_SHARE;
   finish.limits = settings.finish;
   finish.facing = settings.facing;
   finish.add_points = !options.as_published;

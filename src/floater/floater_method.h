@@ -13,18 +13,6 @@
 #include <pcl/surface/floater/options.h>
 
 namespace pcl::floater {
-/// Thresholds for the mesh of a disc.
-struct DiscLimits
-{
-  /// Smallest share of all points connected with the boundary loop; below, the cloud counts as
-  /// several components (UNREACHABLE). Not derived from data, and not certain.
-  double least_reached_share = 0.5;
-
-  /// Share of all edges: if more are folded after the flips, the surface is no disc. On 24 clouds,
-  /// discs had up to 0.01 and closed surfaces that were laid out as discs 0.04 or more.
-  double largest_fold_share = 0.03;
-};
-
 /// Parameters of the points in the plane.
 struct Parameterization
 {
@@ -66,13 +54,12 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
 /// \throws std::bad_alloc
 Parameterization
 parameterize (const Positions& positions, Stars stars, const std::vector<Index>& loop,
-              const DiscOptions& options, const RunContext& run, const DiscLimits& limits = {});
+              const DiscOptions& options, const RunContext& run);
 
 struct DiscSettings
 {
   const Options& options; ///< with as_published: nothing beyond TW 385
   StarSettings stars;     ///< for new stars
-  DiscLimits limits{};
   FinishLimits finish{};
   FacingHints facing{};
 };

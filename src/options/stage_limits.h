@@ -6,7 +6,6 @@
 
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
-#include "floater/floater_method.h"
 #include "local/planes.h"
 #include "mesh/check.h"
 #include "points/net.h"
@@ -22,8 +21,6 @@ struct Limits
   SheetLimits sheets;
   SurfaceLimits surface;
   ViewLimits view;
-  LoopLimits loop;
-  DiscLimits disc;
   CheckLimits check;
 };
 

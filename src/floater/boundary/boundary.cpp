@@ -18,6 +18,21 @@
 
 namespace pcl::floater {
 namespace {
+// k at which a segment begins to grow (TW 385, section 3.3).
+constexpr Index FIRST_K = 3;
+
+// k up to which it is incremented, or that of the cluster, if it is larger: its points are connected by
+// that many neighbours. Tested on generated borders only; not certain.
+constexpr int LARGEST_K = 16;
+
+// Numbers of neighbours that are tried in the univariate parameterization; the shortest order is taken.
+// Tested on generated borders, smooth and jagged; not certain.
+constexpr std::array<Index, 3> UNIVARIATE_K{3, 4, 5};
+
+// Fewest points of a found loop in a cloud of more than FEW_POINTS points. A shorter loop is a gap in
+// the sampling of a closed surface. Of the real discs, the shortest boundary has 36 points; not certain.
+constexpr std::size_t SHORTEST_LOOP = 10;
+constexpr std::size_t FEW_POINTS = 100; // not derived from data
 
 // An edge between two neighbouring points.
 struct NeighborEdge
@@ -80,17 +95,16 @@ nearestPart (const std::vector<NeighborEdge>& graph, std::size_t size, Index k)
   return part;
 }
 
-// Appends points to a segment that begins with `seed` until it has `size` points.
+// Makes a segment of `size` points, or fewer, that begins with point 0, the seed.
 //
-// The first_k nearest neighbours of the points in the segment come first. A farther neighbour is
+// The FIRST_K nearest neighbours of the points in the segment come first. A farther neighbour is
 // appended only if these are exhausted. TW 385 leaves open which of several candidates of one rank
 // comes first. Here it is the nearest to the seed along the segment: both ends then advance alike,
 // and the last point appended is an end.
 std::vector<Index>
-growSegment (const Positions& points, Index seed, std::size_t size, const RunContext& run,
-             const LoopLimits& limits)
+growSegment (const Positions& points, std::size_t size, Index largest_k, const RunContext& run)
 {
-  const std::vector<NeighborEdge> edges = neighborGraph (points, limits.largest_k, run);
+  const std::vector<NeighborEdge> edges = neighborGraph (points, largest_k, run);
   const CsrLists edges_of_point = makeCsrLists (points.size (), [&edges] (const auto& emit) {
     for (Index e = 0; e < edges.size (); ++e) {
       emit (edges[e].a, e);
@@ -103,7 +117,7 @@ growSegment (const Positions& points, Index seed, std::size_t size, const RunCon
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
   Flags appended (points.size (), 0);
   std::vector<Index> segment;
-  candidates.emplace (0, 0.0, seed);
+  candidates.emplace (0, 0.0, 0);
   ProgressLoop progress (run, size);
   while (segment.size () < size && !candidates.empty ()) {
     const auto [rank, path, p] = candidates.top ();
@@ -117,7 +131,7 @@ growSegment (const Positions& points, Index seed, std::size_t size, const RunCon
       const NeighborEdge& edge = edges[e];
       const Index q = edge.a == p ? edge.b : edge.a;
       if (!appended[q])
-        candidates.emplace (std::max (edge.rank, limits.first_k - 1), path + edge.length, q);
+        candidates.emplace (std::max (edge.rank, FIRST_K - 1), path + edge.length, q);
     }
   }
   return segment;
@@ -171,15 +185,15 @@ univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
 // many, jags are smoothed out. Both make the path through the points longer, so the shortest order
 // is used.
 std::vector<Index>
-orderSegment (const Positions& positions, const std::vector<Index>& segment, const RunContext& run,
-              const LoopLimits& limits)
+orderSegment (const Positions& positions, const std::vector<Index>& segment, Index largest_k,
+              const RunContext& run)
 {
   const Positions points = valuesAt (positions, segment);
-  const std::vector<NeighborEdge> graph = neighborGraph (points, limits.largest_k, run);
+  const std::vector<NeighborEdge> graph = neighborGraph (points, largest_k, run);
   const Index size = static_cast<Index> (points.size ());
   std::vector<Index> shortest;
   double shortest_length = std::numeric_limits<double>::infinity ();
-  for (const Index k : limits.univariate_k) {
+  for (const Index k : UNIVARIATE_K) {
     run.poll ();
     std::vector<Index> order = univariateOrder (nearestPart (graph, size, k), size);
     if (order.empty ())
@@ -282,13 +296,14 @@ clusterBoundaryPoints (const Positions& positions, const std::vector<Index>& bou
 }
 
 std::vector<Index>
-twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
-                const RunContext& run, const LoopLimits& limits)
+twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster, int cluster_k,
+                const RunContext& run)
 {
   if (cluster.size () < 4)
     return {};
+  const auto largest_k = static_cast<Index> (std::max (LARGEST_K, cluster_k));
   const Positions points = valuesAt (positions, cluster);
-  std::vector<Index> segment1 = growSegment (points, 0, points.size () / 2 + 1, run, limits);
+  std::vector<Index> segment1 = growSegment (points, points.size () / 2 + 1, largest_k, run);
 
   // Segment 2 grows from the end of segment 1 among all other points. Those that it does not reach
   // are beside segment 1.
@@ -303,14 +318,14 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
   std::vector<Index> segment2 = others (segment1);
   segment2.insert (segment2.begin (), end);
   segment2 = valuesAt (segment2,
-                       growSegment (valuesAt (points, segment2), 0, segment2.size (), run, limits));
+                       growSegment (valuesAt (points, segment2), segment2.size (), largest_k, run));
   segment1 = others (segment2);
   segment1.push_back (end);
 
   // The end of segment 2 is the start of segment 1.
   segment1.insert (segment1.begin (), segment2.back ());
-  std::vector<Index> loop = orderSegment (points, segment1, run, limits);
-  const std::vector<Index> way_back = orderSegment (points, segment2, run, limits);
+  std::vector<Index> loop = orderSegment (points, segment1, largest_k, run);
+  const std::vector<Index> way_back = orderSegment (points, segment2, largest_k, run);
   if (loop.empty () || way_back.empty ())
     return {};
   loop.insert (loop.end (), way_back.begin () + 1, way_back.end () - 1);
@@ -352,9 +367,8 @@ givenLoop (const Points& points, const std::vector<Index>& loop)
 
 Boundary
 publishedLoop (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-               const RunContext& run, LoopLimits limits)
+               const RunContext& run)
 {
-  limits.largest_k = std::max (limits.largest_k, static_cast<Index> (options.cluster_k));
   const Positions& positions = points.workingPositions ();
   Boundary boundary;
   const std::vector<Index> candidates = openingAnglePoints (
@@ -363,18 +377,18 @@ publishedLoop (const Points& points, const LocalGeometry& geometry, const Bounda
   const std::vector<std::vector<Index>> clusters = clusterBoundaryPoints (
       positions, candidates, options.cluster_tolerance * points.diagonal, options.cluster_k, run);
   if (!clusters.empty ())
-    boundary.loop = twoSegmentLoop (positions, clusters.front (), run, limits);
+    boundary.loop = twoSegmentLoop (positions, clusters.front (), options.cluster_k, run);
   return boundary;
 }
 
 void
 checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_given,
-               Boundary& boundary, const LoopLimits& limits)
+               Boundary& boundary)
 {
   if (boundary.problem)
     return;
-  const bool is_mere_gap = !is_given && boundary.loop.size () < limits.shortest_loop &&
-                           points.size () > limits.few_points;
+  const bool is_mere_gap =
+      !is_given && boundary.loop.size () < SHORTEST_LOOP && points.size () > FEW_POINTS;
   if (boundary.loop.size () < 3 || is_mere_gap) {
     boundary.loop.clear ();
     boundary.problem = {

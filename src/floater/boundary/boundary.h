@@ -12,30 +12,6 @@
 #include <pcl/surface/floater/options.h>
 
 namespace pcl::floater {
-/// Thresholds for the loop of a disc.
-struct LoopLimits
-{
-  // Two segments.
-
-  /// k at which a segment begins to grow (TW 385, section 3.3).
-  Index first_k = 3;
-  /// k up to which it is incremented, or that of the cluster, if it is larger: its points are
-  /// connected by that many neighbours. Tested on generated borders only; not certain.
-  Index largest_k = 16;
-  /// Numbers of neighbours that are tried in the univariate parameterization; the shortest order is
-  /// taken. Tested on generated borders, smooth and jagged; not certain.
-  std::array<Index, 3> univariate_k{3, 4, 5};
-
-  // Check of a loop that was found.
-
-  /// Fewest points of a loop in a cloud of more than `few_points` points. A shorter loop is a gap
-  /// in the sampling of a closed surface. Of the real discs, the shortest boundary has 36 points;
-  /// not certain.
-  std::size_t shortest_loop = 10;
-  /// Points of a cloud up to which any loop is accepted. Not derived from data.
-  std::size_t few_points = 100;
-};
-
 /// The boundary loop of a disc.
 struct Boundary
 {
@@ -65,16 +41,17 @@ clusterBoundaryPoints (const Positions& positions, const std::vector<Index>& bou
 /// The choices that TW 385 leaves open, or that differ here: the seed is the first point of the
 /// cluster (TW 385: a random one); a segment first takes the point nearest to the seed along the
 /// segment; neighbourhoods are symmetric; the parameterization uses the number of neighbours with
-/// the shortest order (LoopLimits::univariate_k).
+/// the shortest order.
 ///
 /// Weakness: where the cluster is a thick band, or the border turns back on itself within a
 /// neighbourhood, the order is not that along the border.
 /// \param cluster   distinct points, in any order
+/// \param cluster_k its points are connected by so many neighbours
 /// \return every point of the cluster once, in order; empty if the cluster has fewer than 4 points,
 ///         if two of them coincide, or if the system of a segment is singular
 std::vector<Index>
-twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster,
-                const RunContext& run, const LoopLimits& limits = {});
+twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster, int cluster_k,
+                const RunContext& run);
 
 /// The user's loop. Duplicates are replaced by the points that stand for them.
 /// \param loop in cloud indices
@@ -86,7 +63,7 @@ givenLoop (const Points& points, const std::vector<Index>& loop);
 /// ordered in two segments; empty if there is none.
 Boundary
 publishedLoop (const Points& points, const LocalGeometry& geometry, const BoundaryOptions& options,
-               const RunContext& run, LoopLimits limits = {});
+               const RunContext& run);
 
 /// Measures the steps of the loop, in the means of the local spacings at their ends. Reports
 /// NO_BOUNDARY for a loop of fewer than 3 points, or a found one so short that it is a gap in the
@@ -95,6 +72,6 @@ publishedLoop (const Points& points, const LocalGeometry& geometry, const Bounda
 /// \param is_given the loop was given by the user
 void
 checkBoundary (const Points& points, const std::vector<float>& spacing, bool is_given,
-               Boundary& boundary, const LoopLimits& limits = {});
+               Boundary& boundary);
 
 } // namespace pcl::floater

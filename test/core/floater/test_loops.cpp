@@ -160,7 +160,7 @@ TEST (TwoSegmentLoop, IsTheBorderWhateverTheNumbersOfItsPoints)
         positions.push_back (border[p]);
       for (int i = 0; i < 20; ++i) // others, that are not in the cluster
         positions.emplace_back (0.01 * i, 0.0, 0.0);
-      std::vector<Index> loop = twoSegmentLoop (positions, indices (border.size ()), 1);
+      std::vector<Index> loop = twoSegmentLoop (positions, indices (border.size ()), 10, 1);
       for (Index& p : loop)
         p = order[p];
       EXPECT_EQ (canonicalCycle (loop), indices (border.size ()));
@@ -175,7 +175,7 @@ TEST (TwoSegmentLoop, PointsWithoutAnOrderComeOnceEach)
   for (std::uint64_t seed = 1; seed <= 30; ++seed)
     clouds.push_back (randomPoints (4 + seed * seed / 3, seed));
   for (const Positions& positions : clouds) {
-    std::vector<Index> loop = twoSegmentLoop (positions, indices (positions.size ()), 1);
+    std::vector<Index> loop = twoSegmentLoop (positions, indices (positions.size ()), 10, 1);
     std::sort (loop.begin (), loop.end ());
     EXPECT_EQ (loop, indices (positions.size ()));
   }
