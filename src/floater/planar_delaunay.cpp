@@ -3,7 +3,6 @@
 #include "floater/planar_delaunay.h"
 
 #include "core/exact.h"
-#include "core/geometry.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -27,28 +26,21 @@ triangulatePlane (std::vector<Vector2d> uv, const std::vector<Index>& loop)
   // Points that are not strictly inside of the loop are left out, except its own. Rounding may put a
   // point beyond the edge between two loop points.
   const std::size_t h = loop.size ();
-  // Points within the circle around the origin that touches the nearest edge need no test.
-  double sqr_safe = std::numeric_limits<double>::infinity ();
+  const auto direction = [] (const Vector2d& p) { return std::atan2 (p.y (), p.x ()); };
   std::vector<std::pair<double, std::size_t>> corners; // direction, index in the loop; ascending
-  for (std::size_t i = 0; i < h; ++i) {
-    const Vector2d& a = uv[loop[i]];
-    const Vector2d edge = uv[loop[(i + 1) % h]] - a;
-    const double twice_area = cross (a, edge);
-    sqr_safe =
-        std::min (sqr_safe, twice_area > 0.0 ? twice_area * twice_area / edge.squaredNorm () : 0.0);
-    corners.emplace_back (std::atan2 (a.y (), a.x ()), i);
-  }
+  corners.reserve (h);
+  for (std::size_t i = 0; i < h; ++i)
+    corners.emplace_back (direction (uv[loop[i]]), i);
   std::sort (corners.begin (), corners.end ());
   Flags is_in_loop (uv.size (), 0);
   for (const Index p : loop)
     is_in_loop[p] = 1;
   for (Index p = 0; p < uv.size (); ++p) {
-    if (is_in_loop[p] != 0 || !(uv[p].squaredNorm () >= sqr_safe * (1.0 - 1e-9)))
+    if (is_in_loop[p] != 0 || !uv[p].allFinite ())
       continue;
     // The edges beside p's direction, and one more on each side because of rounding.
     const auto after = static_cast<std::size_t> (
-        std::upper_bound (corners.begin (), corners.end (),
-                          std::make_pair (std::atan2 (uv[p].y (), uv[p].x ()), h)) -
+        std::upper_bound (corners.begin (), corners.end (), std::make_pair (direction (uv[p]), h)) -
         corners.begin ());
     bool is_inside = true;
     for (std::size_t step = 0; step < 4; ++step) {

@@ -186,7 +186,6 @@ weighStar (const LocalStar& star, Weighting weighting, double* weights)
     shapePreserving (star, weights);
   else
     meanValue (star, weights);
-  normalize (weights, star.size ());
 }
 
 } // namespace
@@ -202,8 +201,7 @@ computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)
     double* row = weights.data () + first;
     if (star.assign (stars.offsets_in_plane.data () + first, count, stars.open[p] == 0))
       weighStar (star, weighting, row);
-    else
-      std::fill (row, row + count, 1.0 / static_cast<double> (count));
+    normalize (row, count); // the weights of a star without extent are all 0
   });
   return weights;
 }
