@@ -90,6 +90,51 @@ layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& c
   return uv;
 }
 
+// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system (TW 385,
+// equations (1) to (3)): the parameters of a disc with a boundary. Stages WEIGHTS and SOLVE.
+// \param stars with their offsets; freed as soon as there are weights
+void
+parameterize (const Positions& positions, Stars stars, const DiscOptions& options,
+              const RunContext& run, Disc& disc)
+{
+  const std::vector<Index>& loop = disc.boundary.loop;
+  run.beginStage (Stage::WEIGHTS);
+  std::vector<double> weights = computeWeights (stars, options.weighting, run);
+  CsrLists neighbors = std::move (stars.neighbors);
+  stars = {};
+
+  const Flags reachable = reachLoop (neighbors, loop, run);
+  const auto unreachable =
+      static_cast<std::size_t> (std::count (reachable.begin (), reachable.end (), 0));
+  const double reached = static_cast<double> (positions.size () - unreachable);
+  if (reached < LEAST_REACHED_SHARE * static_cast<double> (positions.size ())) {
+    disc.problem = {
+        RunStatus::UNREACHABLE,
+        std::to_string (unreachable) + " of " + std::to_string (positions.size ()) +
+            " points do not connect to the boundary loop: the cloud has several components, or "
+            "gaps much wider than its spacing; reconstruct its components one by one, or use "
+            "more neighbours"};
+    return;
+  }
+  const std::vector<Vector2d> loop_uv = layLoop (positions, loop, options.domain);
+  const LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reachable);
+  neighbors = {};
+  std::vector<double> ().swap (weights);
+
+  run.beginStage (Stage::SOLVE);
+  Solution solution = solve (system, options.solver, run);
+  disc.figures = solution;
+  disc.problem = std::move (solution.problem);
+  if (disc.problem)
+    return;
+  disc.uv.assign (positions.size (),
+                  Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
+  for (std::size_t i = 0; i < loop.size (); ++i)
+    disc.uv[loop[i]] = loop_uv[i];
+  for (std::size_t i = 0; i < system.unknowns (); ++i)
+    disc.uv[system.point_of_unknown[i]] = solution.uv.row (static_cast<Eigen::Index> (i));
+}
+
 } // namespace
 
 std::vector<Vector2d>
@@ -145,52 +190,6 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
   return reachable;
 }
 
-Parameterization
-parameterize (const Positions& positions, Stars stars, const std::vector<Index>& loop,
-              const DiscOptions& options, const RunContext& run)
-{
-  Parameterization result;
-  run.beginStage (Stage::WEIGHTS);
-  std::vector<double> weights = computeWeights (stars, options.weighting, run);
-  CsrLists neighbors = std::move (stars.neighbors);
-  stars = {};
-
-  const Flags reachable = reachLoop (neighbors, loop, run);
-  const auto unreachable =
-      static_cast<std::size_t> (std::count (reachable.begin (), reachable.end (), 0));
-  const double reached = static_cast<double> (positions.size () - unreachable);
-  if (reached < LEAST_REACHED_SHARE * static_cast<double> (positions.size ())) {
-    result.problem = {
-        RunStatus::UNREACHABLE,
-        std::to_string (unreachable) + " of " + std::to_string (positions.size ()) +
-            " points do not connect to the boundary loop: the cloud has several components, or "
-            "gaps much wider than its spacing; reconstruct its components one by one, or use "
-            "more neighbours"};
-    return result;
-  }
-  const std::vector<Vector2d> loop_uv = layLoop (positions, loop, options.domain);
-  LinearSystem system = assembleSystem (neighbors, weights, loop, loop_uv, reachable);
-  neighbors = {};
-  std::vector<double> ().swap (weights);
-  result.unknowns = system.unknowns ();
-  result.nonzeros = system.nonzeros ();
-
-  run.beginStage (Stage::SOLVE);
-  result.solution = solve (system, options.solver, run);
-  const Eigen::MatrixX2d solved = std::move (result.solution.uv);
-  result.problem = result.solution.problem;
-  if (result.problem)
-    return result;
-
-  result.uv.assign (positions.size (),
-                    Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ()));
-  for (std::size_t i = 0; i < loop.size (); ++i)
-    result.uv[loop[i]] = loop_uv[i];
-  for (std::size_t i = 0; i < system.unknowns (); ++i)
-    result.uv[system.point_of_unknown[i]] = solved.row (static_cast<Eigen::Index> (i));
-  return result;
-}
-
 // The stages of TW 385 in order, with its sections and equations.
 
 Disc
@@ -203,7 +202,6 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   if (disc.problem)
     return disc;
   const Positions& positions = points.workingPositions ();
-  const std::vector<Index>& loop = disc.boundary.loop;
 
   // Section 2.1: the weights may be for all neighbours; the boundary needed Delaunay stars.
   run.beginStage (Stage::WEIGHTS);
@@ -219,17 +217,15 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
   // The normals are needed longer than the stars.
   Normals normals = geometry.stars.normals;
-  disc.parameterization = parameterize (positions, std::move (geometry.stars), loop, options, run);
+  parameterize (positions, std::move (geometry.stars), options, run, disc);
   geometry.stars = {};
   geometry.stars.normals = std::move (normals);
-  disc.problem = disc.parameterization.problem;
   if (disc.problem)
     return disc;
 
   // Section 2: the triangles of the parameters are the triangles in space.
   run.beginStage (Stage::DELAUNAY);
-  const std::vector<Vector2d>& uv = disc.parameterization.uv;
-  disc.mesh = triangulatePlane (uv, loop);
+  disc.mesh = triangulatePlane (disc.uv, disc.boundary.loop);
 
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
   // edges are flipped in space.

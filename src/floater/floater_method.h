@@ -13,18 +13,6 @@
 #include <pcl/surface/floater/options.h>
 
 namespace pcl::floater {
-/// Parameters of the points in the plane.
-struct Parameterization
-{
-  std::vector<Vector2d> uv; ///< per point; NaN if it is not connected with the loop; empty
-                            ///< if there is a problem
-  std::size_t unknowns = 0; ///< rows of the linear system
-  std::size_t nonzeros = 0; ///< entries of its matrix
-  Solution solution;        ///< figures of the solver; the solution itself is in uv
-  Problem problem;          ///< UNREACHABLE, SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or
-                            ///< INTERNAL_ERROR
-};
-
 /// Per point: 1 if a path along directed neighbours leads from it to the loop. Others take no part in
 /// the linear system: for unconnected unknowns, UMFPACK may return OK and put them all on the origin.
 /// A reverse breadth-first search, O(entries).
@@ -48,14 +36,6 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
 std::vector<Vector2d>
 layLoop (const Positions& positions, const std::vector<Index>& loop, const DomainOptions& options);
 
-/// Makes weights, lays the loop on a convex curve, and assembles and solves the linear system
-/// (TW 385, equations (1) to (3)). Runs through the stages WEIGHTS and SOLVE.
-/// \param stars     with their offsets; freed as soon as there are weights
-/// \throws std::bad_alloc
-Parameterization
-parameterize (const Positions& positions, Stars stars, const std::vector<Index>& loop,
-              const DiscOptions& options, const RunContext& run);
-
 struct DiscSettings
 {
   const Options& options; ///< with as_published: nothing beyond TW 385
@@ -68,7 +48,10 @@ struct DiscSettings
 struct Disc
 {
   Boundary boundary;
-  Parameterization parameterization;
+  SystemStatistics figures; ///< of the linear system
+  std::vector<Vector2d>
+      uv; ///< per point: parameters; NaN if it is not connected with the loop; empty
+          ///< if there are none
   TriangleMesh mesh;
   MeshFinish finish;
   Problem problem;
@@ -81,7 +64,8 @@ struct Disc
 /// on, points coincide in the plane; from some 50 on, folds are left.
 /// \param geometry its stars, which need their offsets, are consumed, except their normals
 /// \param boundary checked (see checkBoundary ())
-/// \return with the problem of the boundary or of the parameterization, or NOT_A_DISC if too many edges are folded
+/// \return with the problem of the boundary; UNREACHABLE if it is not connected with most points; that of the
+///     solver; or NOT_A_DISC if too many edges are folded
 Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run);

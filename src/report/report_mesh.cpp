@@ -254,7 +254,6 @@ reportCheck (const Points& points, const MeshExamination& found, const Options& 
 void
 reportDisc (const Points& points, const Disc& disc, Report& report)
 {
-  const Parameterization& parameterization = disc.parameterization;
   const Boundary& boundary = disc.boundary;
   report.loop = valuesAt (points.cloud_index, boundary.loop);
   report.statistics.boundary_candidates = boundary.candidates;
@@ -262,27 +261,18 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
   if (boundary.largest_step > LONG_STEP)
     addFinding (report, FindingId::STEP_IN_LOOP, points, {boundary.longest_from},
                 boundary.largest_step);
-  const Solution& solution = parameterization.solution;
-  Statistics& statistics = report.statistics;
-  statistics.unknowns = parameterization.unknowns;
-  statistics.nnz_matrix = parameterization.nonzeros;
-  statistics.nnz_factors = solution.nnz_factors;
-  if (parameterization.nonzeros > 0)
-    statistics.fill_in = static_cast<double> (solution.nnz_factors) /
-                         static_cast<double> (parameterization.nonzeros);
-  statistics.residual = solution.residual;
-  statistics.relative_residual = solution.relative_residual;
-  statistics.iterations_u = solution.iterations[0];
-  statistics.iterations_v = solution.iterations[1];
-  statistics.reciprocal_condition = solution.reciprocal_condition;
-  statistics.factorization_bytes = solution.peak_bytes;
-  if (parameterization.uv.empty ())
+  SystemStatistics& figures = report.statistics;
+  figures = disc.figures;
+  if (figures.nnz_matrix > 0)
+    figures.fill_in =
+        static_cast<double> (figures.nnz_factors) / static_cast<double> (figures.nnz_matrix);
+  if (disc.uv.empty ())
     return;
   const Vector2d nowhere = Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
   const Eigen::Array2d mirror (1.0, disc.finish.facing.turned > 0 ? -1.0 : 1.0);
   report.parameters.assign (report.statistics.cloud_points, nowhere);
   for (Index p = 0; p < points.cloud_index.size (); ++p)
-    report.parameters[points.cloud_index[p]] = parameterization.uv[p].array () * mirror;
+    report.parameters[points.cloud_index[p]] = disc.uv[p].array () * mirror;
   for (const std::array<Index, 2>& duplicate : points.duplicates)
     report.parameters[duplicate[0]] = report.parameters[duplicate[1]];
 }
@@ -296,14 +286,8 @@ reportLoops (const Points& points, const Surface& surface, Report& report)
   std::size_t too_deep = 0;
   const BoundaryLoop* widest = nullptr;
   for (const BoundaryLoop& loop : surface.doubtful_loops) {
-    const LoopSummary summary = summaryOf (loop, points);
-    const LoopDecision decision{summary.points,
-                                summary.width,
-                                summary.width_spacings,
-                                summary.at,
-                                loop.keep_open,
-                                loop.judgement.probability (),
-                                loop.judgement.is_too_deep};
+    const LoopDecision decision{summaryOf (loop, points), loop.keep_open,
+                                loop.judgement.probability (), loop.judgement.is_too_deep};
     if (decision.is_too_deep && decision.stays_open && decision.probability <= 0.5) {
       ++too_deep;
       if (widest == nullptr || loop.width > widest->width)

@@ -226,7 +226,8 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
     const auto at = static_cast<Eigen::Index> (side);
     const auto [unknowns, iterations] = iterate (system, at, factors, options, run);
     solution.uv.col (at) = unknowns;
-    solution.iterations[side] = static_cast<std::size_t> (iterations);
+    (side == 0 ? solution.iterations_u : solution.iterations_v) =
+        static_cast<std::size_t> (iterations);
   });
 }
 
@@ -247,7 +248,8 @@ solveWithGaussSeidel (const LinearSystem& system, const SolverOptions& options,
       if (!solved[side]) {
         const auto at = static_cast<Eigen::Index> (side);
         const Residual residual = measureResidual (system, at, solution.uv.col (at));
-        solution.iterations[side] = static_cast<std::size_t> (sweeps);
+        (side == 0 ? solution.iterations_u : solution.iterations_v) =
+            static_cast<std::size_t> (sweeps);
         solved[side] = residual.rest.norm () <= residual.target (options.tolerance);
       }
   }
@@ -286,7 +288,7 @@ conclude (const LinearSystem& system, const SolverOptions& options, Solution& so
     solution.problem = notSolved (RunStatus::INTERNAL_ERROR, "the solution is not finite");
   else if (is_iterative && !is_within) {
     std::ostringstream message;
-    const std::size_t iterations = std::max (solution.iterations[0], solution.iterations[1]);
+    const std::size_t iterations = std::max (solution.iterations_u, solution.iterations_v);
     message << (options.method == Solver::BICGSTAB_ILUT ? "BiCGSTAB" : "Gauss-Seidel")
             << " reached a relative residual of " << solution.relative_residual << " in "
             << iterations << (iterations == 1 ? " iteration" : " iterations") << ", not "
@@ -375,6 +377,8 @@ Solution
 solve (const LinearSystem& system, const SolverOptions& options, const RunContext& run)
 {
   Solution solution;
+  solution.unknowns = system.unknowns ();
+  solution.nnz_matrix = system.nonzeros ();
   if (system.unknowns () == 0) {
     solution.reciprocal_condition = 1.0;
     return solution;

@@ -39,19 +39,11 @@ assembleSystem (const CsrLists& neighbors, const std::vector<double>& weights,
                 const std::vector<Index>& loop, const std::vector<Vector2d>& loop_uv,
                 const Flags& reachable, std::size_t most_entries = MOST_MATRIX_ENTRIES);
 
-/// The solution of a LinearSystem, and what it cost.
-struct Solution
+/// The solution of a LinearSystem, and its figures.
+struct Solution : SystemStatistics
 {
   Problem problem;     ///< SINGULAR, NOT_CONVERGED, OUT_OF_MEMORY or INTERNAL_ERROR
   Eigen::MatrixX2d uv; ///< per unknown; no rows if there is a problem
-  /// Entries of L and U, also of incomplete factors; the unit diagonal of L is not counted
-  std::size_t nnz_factors = 0;
-  double residual = 0.0;                   ///< max |b - A u|
-  double relative_residual = 0.0;          ///< |b - A u| / |b| of the worse right-hand side
-  std::array<std::size_t, 2> iterations{}; ///< iterative solvers: for u and for v
-  double reciprocal_condition = 0.0; ///< direct solvers: min |U_kk| / max |U_kk|; 1 if there is
-                                     ///< no unknown
-  std::size_t peak_bytes = 0;        ///< direct solvers: largest memory of the factorization
 };
 
 /// Solves for both coordinates with options.method in the order options.ordering. An empty system

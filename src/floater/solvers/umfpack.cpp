@@ -94,7 +94,7 @@ solveWithIndices (const LinearSystem& system, const Control& control, const RunC
   }
   // UMFPACK leaves -1 for figures that it did not compute.
   const auto figure = [&info] (std::size_t entry) { return std::max (0.0, info[entry]); };
-  solution.peak_bytes =
+  solution.factorization_bytes =
       static_cast<std::size_t> (figure (UMFPACK_PEAK_MEMORY) * figure (UMFPACK_SIZE_OF_UNIT));
   solution.reciprocal_condition = figure (UMFPACK_RCOND);
   if (!accept (info, "factorization", solution))

@@ -152,12 +152,12 @@ TEST (Solvers, AgreeWithADenseFactorizationInEveryOrder)
         if (i >= 2)
           continue;
         EXPECT_GT (solution.relative_residual, 0.0);
-        EXPECT_EQ (solution.iterations[0] > 0, isIterative (solver));
-        EXPECT_EQ (solution.iterations[1] > 0, isIterative (solver));
+        EXPECT_EQ (solution.iterations_u > 0, isIterative (solver));
+        EXPECT_EQ (solution.iterations_v > 0, isIterative (solver));
         if (!isIterative (solver)) {
           EXPECT_GE (solution.nnz_factors, system.nonzeros ());
-          EXPECT_GE (solution.peak_bytes, 8 * solution.nnz_factors);
-          EXPECT_LT (solution.peak_bytes, 200 * solution.nnz_factors);
+          EXPECT_GE (solution.factorization_bytes, 8 * solution.nnz_factors);
+          EXPECT_LT (solution.factorization_bytes, 200 * solution.nnz_factors);
           EXPECT_GT (solution.reciprocal_condition, 1e-3);
           EXPECT_LE (solution.reciprocal_condition, 1.0);
         }
@@ -245,14 +245,14 @@ TEST (Solvers, ThatIterateStopAtTheToleranceOrTellThatTheyDoNot)
       const Solution solution = solve (system, options, 1);
       ASSERT_FALSE (solution.problem) << solution.problem.message;
       EXPECT_LE (solution.relative_residual, std::max (tolerance, 1e-13));
-      EXPECT_GT (solution.iterations[0], before) << tolerance;
-      before = solution.iterations[0];
+      EXPECT_GT (solution.iterations_u, before) << tolerance;
+      before = solution.iterations_u;
     }
     SolverOptions options = choice (solver);
     options.max_iterations = 4;
     const Solution solution = solve (system, options, 1);
     expectFailure (solution, RunStatus::NOT_CONVERGED);
-    EXPECT_EQ (solution.iterations[0], 4U);
+    EXPECT_EQ (solution.iterations_u, 4U);
     EXPECT_GT (solution.relative_residual, options.tolerance);
     EXPECT_NE (solution.problem.message.find ("residual"), std::string::npos);
   }

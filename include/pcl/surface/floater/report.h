@@ -55,16 +55,12 @@ struct LoopSummary
 /// An uncertain decision: whether a boundary loop of the first mesh is a boundary of the surface,
 /// and stays open, or a gap in the sampling, and is filled. The hole policy may overrule the
 /// probability.
-struct LoopDecision
+struct LoopDecision : LoopSummary
 {
-  std::size_t points = 0; ///< number of points
-  double width = 0.0;     ///< largest distance between two of its points, in units of the cloud
-  double width_spacings = 0.0; ///< width in local spacings
-  std::uint32_t at = 0;        ///< smallest cloud index of its points
-  bool stays_open = false;     ///< else it was filled
-  double probability = 0.0;    ///< that it is a boundary of the surface, 0 to 1
-  bool is_too_deep = false;    ///< too deep to be filled: the points around it do not determine the
-                               ///< surface inside
+  bool stays_open = false;  ///< else it was filled
+  double probability = 0.0; ///< that it is a boundary of the surface, 0 to 1
+  bool is_too_deep = false; ///< too deep to be filled: the points around it do not determine the
+                            ///< surface inside
 };
 
 /// Why a part of the mesh faces as it does.
@@ -210,8 +206,23 @@ struct MeshCheck
   std::vector<LoopSummary> loops;                 ///< longest first
 };
 
+/// Figures of the linear system of a disc and of its solution.
+struct SystemStatistics
+{
+  std::size_t unknowns = 0;            ///< interior points m, rows of the system
+  std::size_t nnz_matrix = 0;          ///< nnz (A)
+  std::size_t nnz_factors = 0;         ///< nnz (L + U), without the unit diagonal of L
+  double fill_in = 0.0;                ///< gamma = nnz (L + U) / nnz (A); TW 385, section 4.3
+  double residual = 0.0;               ///< max |b - A u| over all rows and both coordinates
+  double relative_residual = 0.0;      ///< measured |b - A u| / |b|, the larger of both coordinates
+  std::size_t iterations_u = 0;        ///< iterations for the first coordinate
+  std::size_t iterations_v = 0;        ///< iterations for the second coordinate
+  double reciprocal_condition = 0.0;   ///< min |U_kk| / max |U_kk| of a direct solver
+  std::size_t factorization_bytes = 0; ///< peak memory of the factorization; 0 if unknown
+};
+
 /// Counts, times and figures of a run; 0 for stages that were not reached.
-struct Statistics
+struct Statistics : SystemStatistics
 {
   std::array<double, static_cast<std::size_t> (Stage::COUNT)> seconds{}; ///< wall time by stage
   double total_seconds = 0.0; ///< wall time of all stages
@@ -260,17 +271,6 @@ struct Statistics
   std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them, or folds
   std::size_t self_intersection_moves = 0;    ///< points moved to other triangles
   std::size_t self_intersection_rebuilds = 0; ///< patches of points removed and reinserted
-
-  std::size_t unknowns = 0;            ///< interior points m, rows of the system
-  std::size_t nnz_matrix = 0;          ///< nnz (A)
-  std::size_t nnz_factors = 0;         ///< nnz (L + U), also of incomplete factors
-  double fill_in = 0.0;                ///< gamma = nnz (L + U) / nnz (A); TW 385, section 4.3
-  double residual = 0.0;               ///< max |b - A u| over all rows and both coordinates
-  double relative_residual = 0.0;      ///< measured |b - A u| / |b|, the larger of both coordinates
-  std::size_t iterations_u = 0;        ///< iterations for the first coordinate
-  std::size_t iterations_v = 0;        ///< iterations for the second coordinate
-  double reciprocal_condition = 0.0;   ///< min |U_kk| / max |U_kk| of a direct solver
-  std::size_t factorization_bytes = 0; ///< peak memory of the factorization; 0 if unknown
 };
 
 /// Everything about a run except the mesh. All indices are cloud indices.
