@@ -85,10 +85,7 @@ isFold (const Vector3d& normal, const Vector3d& other)
 inline bool
 isBent (const Vector3d& normal, const Vector3d& other)
 {
-  constexpr double SQR_COSINE = 0.25;
-  const double product = normal.dot (other);
-  return product <= 0.0 ||
-         product * product < SQR_COSINE * normal.squaredNorm () * other.squaredNorm ();
+  return !isFold (normal, -other);
 }
 
 /// Right-handed axes with the normal as the third.
