@@ -53,14 +53,12 @@ takeSample (const Positions& positions, std::size_t stride, const RunContext& ru
   return {stride, KdTree (kept, run)};
 }
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 // Root mean square distance to the quadric over the plane of the points.
 double
 quadricResidual (const std::vector<Vector3d>& offsets, const PrincipalAxes& axes)
 {
-  Matrix6d normal_matrix = Matrix6d::Zero ();
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  auto normal_matrix = Eigen::Matrix<double, 6, 6>::Zero ().eval ();
   Vector6d right_side = Vector6d::Zero ();
   double sqr_heights = 0.0;
   for (const Vector3d& offset : offsets) {
@@ -237,8 +235,7 @@ struct Places
 Places
 measurePlaces (const Positions& positions, const CsrLists& neighbors, const RunContext& run)
 {
-  // Points; if there are fewer, unevenness is not measured at all.
-  constexpr std::size_t LEAST_UNEVEN = 100;
+  constexpr std::size_t LEAST_UNEVEN = 100; // points; with fewer, unevenness is not measured
   const PointSample quarter = takeSample (positions, STRIDES[1], run),
                     sixteenth = takeSample (positions, STRIDES[2], run);
   const std::size_t centres = (positions.size () + CENTRES - 1) / CENTRES;
@@ -361,11 +358,10 @@ keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
   for (std::size_t p = 0; p < n; ++p) // less what it has to be
     noisy.value[p] -= static_cast<float> (1.0 - UNEXPLAINED) * (1.0F - before[p]);
   takeRegions (neighbors, noisy, 1, 0.0, is_explained);
-  noise.noisy_points = 0;
+  noise.noisy_points =
+      static_cast<std::size_t> (std::count (is_explained.begin (), is_explained.end (), 1));
   for (std::size_t p = 0; p < n; ++p)
-    if (is_explained[p] != 0)
-      ++noise.noisy_points;
-    else
+    if (is_explained[p] == 0)
       noise.at_point[p] = 0.0F;
 }
 
@@ -380,10 +376,9 @@ projectNoisyPoints (const Positions& positions, const CsrLists& neighbors, const
   constexpr double NARROWNESS = 4.0;
   constexpr double OUTSIDE = 4.5; // standard deviations at which the weight vanishes
   constexpr int PASSES = 2;
-  std::vector<PointSample> samples;
-  samples.reserve (std::size (STRIDES));
-  for (const std::size_t stride : STRIDES)
-    samples.push_back (takeSample (positions, stride, run));
+  const std::array<PointSample, SCALES> samples{takeSample (positions, STRIDES[0], run),
+                                                takeSample (positions, STRIDES[1], run),
+                                                takeSample (positions, STRIDES[2], run)};
   Positions projected = positions;
   parallelPoints<std::vector<Neighbor>> (run, positions.size (), [&] (Index p, auto& found) {
     const auto deviation = static_cast<double> (noise.at_point[p]);
