@@ -74,25 +74,21 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   const std::size_t indices =
       add ("SCALAR", UNSIGNED_INT, 3 * triangles.size (), TRIANGLE / 3, INDICES);
 
-  constexpr double HALF_ROOT = 0.70710678118654752440;
-  Json asset{{"version", "2.0"}, {"generator", "pcl_floater_reconstruct"}};
-  if (const std::string shift = cloud.shiftText (); !shift.empty ())
-    asset["extras"] = Json{{"shift", shift}};
-  const Json primitive{
-      {"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", TRIANGLES}};
-  const Json material{{"doubleSided", true},
-                      {"pbrMetallicRoughness", Json{{"metallicFactor", 0.0}}}};
   // Up is +y for viewers, and +z in most clouds. The arrays have the coordinates of the cloud.
-  const Json node{{"mesh", 0}, {"rotation", Json::array ({-HALF_ROOT, 0.0, 0.0, HALF_ROOT})}};
-  const Json all{{"asset", asset},
-                 {"scene", 0},
-                 {"scenes", Json::array ({Json{{"nodes", Json::array ({0})}}})},
-                 {"nodes", Json::array ({node})},
-                 {"meshes", Json::array ({Json{{"primitives", Json::array ({primitive})}}})},
-                 {"materials", Json::array ({material})},
-                 {"buffers", Json::array ({Json{{"byteLength", bytes}}})},
-                 {"bufferViews", views},
-                 {"accessors", accessors}};
+  Json all = Json::parse (R"({
+    "asset": {"version": "2.0", "generator": "pcl_floater_reconstruct"},
+    "scene": 0,
+    "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "rotation": [-0.7071067811865476, 0.0, 0.0, 0.7071067811865476]}],
+    "meshes": [{"primitives": [{"material": 0}]}],
+    "materials": [{"doubleSided": true, "pbrMetallicRoughness": {"metallicFactor": 0.0}}]})");
+  if (const std::string shift = cloud.shiftText (); !shift.empty ())
+    all["asset"]["extras"]["shift"] = shift;
+  all["meshes"][0]["primitives"][0].update (
+      {{"attributes", attributes}, {"indices", indices}, {"mode", TRIANGLES}});
+  all["buffers"][0]["byteLength"] = bytes;
+  all["bufferViews"] = views;
+  all["accessors"] = accessors;
   std::string text = all.dump ();
   text.resize ((text.size () + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, ' ');
 

@@ -94,18 +94,17 @@ matchNormals (const std::vector<double>& normals, const ObjFaces& faces, std::si
     return {};
   }
   std::vector<double> matched (3 * points, std::numeric_limits<double>::quiet_NaN ());
-  std::vector<std::uint8_t> has_one (points, 0), has_several (points, 0);
+  std::vector<std::uint8_t> has_several (points, 0);
   for (const auto& [point, normal] : faces.normals) {
     if (point >= points || normal >= normals.size () / 3)
       throw ReadError ("a face names point " + std::to_string (point + 1) + " and normal " +
                        std::to_string (normal + 1) + ", one of which the file does not have");
     const auto from = normals.begin () + static_cast<std::ptrdiff_t> (3 * normal);
     const auto to = matched.begin () + static_cast<std::ptrdiff_t> (3 * point);
-    if (has_one[point] == 0)
+    if (std::isnan (*to))
       std::copy_n (from, 3, to);
     else if (!std::equal (from, from + 3, to))
       has_several[point] = 1;
-    has_one[point] = 1;
   }
   if (const auto several = std::count (has_several.begin (), has_several.end (), 1); several > 0)
     warnings.push_back (counted (static_cast<std::size_t> (several), "point") +

@@ -75,10 +75,9 @@ public:
   {
     if (next_ >= text_.size ())
       return false;
-    const std::size_t newline = text_.find (newline_, next_);
-    end_ = newline == std::string_view::npos ? text_.size () : newline;
     at_ = next_;
-    next_ = newline == std::string_view::npos ? text_.size () : newline + 1;
+    end_ = std::min (text_.find (newline_, at_), text_.size ());
+    next_ = std::min (end_ + 1, text_.size ());
     ++line_;
     return true;
   }

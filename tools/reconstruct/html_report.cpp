@@ -166,8 +166,7 @@ thin (Drawing& drawing, std::size_t most)
   for (Flaw& flaw : drawing.flaws) {
     for (Index& t : flaw.triangles)
       t = number[t];
-    flaw.triangles.erase (std::remove (flaw.triangles.begin (), flaw.triangles.end (), NONE),
-                          flaw.triangles.end ());
+    boost::remove_erase (flaw.triangles, NONE);
   }
   drawing.positions = valuesAt (drawing.positions, takeUsed (joined.size (), kept));
   drawing.triangles = std::move (kept);
@@ -296,9 +295,9 @@ meshJson (const Drawing& drawing, std::size_t triangles, std::vector<Dots> all_d
   const Eigen::Vector3d beside = Eigen::Vector3d::Constant (0.5 * box.diagonal ().norm ());
   const Box shown (box.min () - beside, box.max () + beside);
   for (Dots& dots : all_dots) {
-    const auto isFar = [&shown] (const Eigen::Vector3d& p) { return !shown.contains (p); };
-    dots.positions.erase (std::remove_if (dots.positions.begin (), dots.positions.end (), isFar),
-                          dots.positions.end ());
+    boost::remove_erase_if (dots.positions, [&shown] (const Eigen::Vector3d& position) {
+      return !shown.contains (position);
+    });
     box.extend (boxAround (dots.positions));
   }
   const double size = box.sizes ().maxCoeff () > 0.0 ? box.sizes ().maxCoeff () : 1.0;
