@@ -21,8 +21,8 @@ struct Candidate
   float normal_agreement;   ///< least |cosine| between its normal and those of its corners
 };
 
-/// The triangles of all stars that are neither too large nor too steep, each once, ordered by their first corner
-/// and around it. O(entries of the stars).
+/// The triangles of all stars that are neither too large nor too steep, each once, ordered by their
+/// first corner and around it. O(entries of the stars).
 /// \param normals for the normal agreement: those of the stars, or others on the same side
 /// \param spacing of each point (see localSpacing)
 std::vector<Candidate>
@@ -64,10 +64,10 @@ private:
 };
 
 /// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
-/// are connected by edges, if it is long enough. An orientation that spreads round such a surface contradicts itself
-/// along a whole row across it; a wrong triangle between two sheets stands alone, and where thin
-/// sheets are glued, there are many short rows. Fails for strips less than about 4 spacings wide:
-/// their rows are too short. O(m log m) for m triangles.
+/// are connected by edges, if it is long enough. An orientation that spreads round such a surface
+/// contradicts itself along a whole row across it; a wrong triangle between two sheets stands
+/// alone, and where thin sheets are glued, there are many short rows. Fails for strips less than
+/// about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
 /// \param contradicting see Consensus::seam
 /// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
 std::vector<Triangle>

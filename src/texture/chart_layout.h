@@ -37,9 +37,9 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& 
 
 /// Lays a chart out without flipped triangles, and with a simple boundary: no point of the plane is
 /// covered twice. Starts with the projection along the mean normal, untangled if it has small
-/// defects, or else on a circle (layOutOnCircle); one triangle with its shape in space. Then lowers the distortion
-/// (descendDistortion). Both properties are tested exactly. Takes 10 microseconds per triangle from a
-/// projection, and some 100 from a circle.
+/// defects, or else on a circle (layOutOnCircle); one triangle with its shape in space. Then lowers
+/// the distortion (descendDistortion). Both properties are tested exactly. Takes 10 microseconds per
+/// triangle from a projection, and some 100 from a circle.
 /// \param triangles of the mesh
 /// \param chart     triangles of the chart, ascending
 /// \param positions of the points of the mesh
