@@ -284,7 +284,8 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& nei
         remade.is_noisy[p] = points.size () >= LARGE_ZONE ? is_noise[zone] : 0;
       noisy_points += is_noise[zone] * points.size ();
     }
-    if (4 * noisy_points > positions.size ())
+    remade.is_noise = 4 * noisy_points > positions.size ();
+    if (remade.is_noise)
       return; // narrower zones would be noise as well
     if (std::count (made.begin (), made.end (), std::nullopt) ==
             static_cast<std::ptrdiff_t> (made.size ()) ||

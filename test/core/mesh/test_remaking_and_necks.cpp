@@ -166,6 +166,7 @@ TEST (Remaking, MakesAZoneAnewUnlessItIsNoise)
       position += (is_noisy ? 0.05 : 0.0) * normalVector (random);
     const std::vector<Triangle> before = spheres.mesh.triangles;
     const RemadeZones remade = spheres.remake ();
+    EXPECT_EQ (remade.is_noise, is_noisy);
     EXPECT_EQ (std::count (remade.is_noisy.begin (), remade.is_noisy.end (), 1) > 5000,
                is_noisy && points == 3000);
     EXPECT_EQ (remade.points () > most, !is_noisy);
