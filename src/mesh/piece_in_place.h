@@ -90,7 +90,8 @@ public:
     });
     TriangleMesh split;
     for (Index t = 0; t < triangles; ++t)
-      split.triangles.push_back ({point_of[3 * t], point_of[3 * t + 1], point_of[3 * t + 2]});
+      split.triangles.push_back (
+          {point_of[corner (t, 0)], point_of[corner (t, 1)], point_of[corner (t, 2)]});
     split.connect (static_cast<std::size_t> (points), run);
     const auto open = static_cast<long> (boundaryEdges (split).size ()),
                loops = static_cast<long> (boundaryLoops (split, run).size ()),
