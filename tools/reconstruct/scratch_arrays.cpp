@@ -18,7 +18,6 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <new>
@@ -94,6 +93,8 @@ mapNewFile (std::size_t bytes)
 [[maybe_unused]] void*
 makeLargeArray (std::size_t size)
 {
+  if (size > PTRDIFF_MAX)
+    return nullptr;
   void* const array = mapNewFile (size);
   const int error = errno;
   ScratchArrays& all = scratchArrays ();
@@ -102,10 +103,29 @@ makeLargeArray (std::size_t size)
     all.failure = {error, size, all.use.bytes};
     return nullptr;
   }
-  all.sizes.emplace (array, size);
+  try {
+    all.sizes.emplace (array, size);
+  }
+  catch (const std::bad_alloc&) {
+    ::munmap (array, size);
+    return nullptr;
+  }
   all.use.bytes += size;
   all.use.peak = std::max (all.use.peak, all.use.bytes);
   return array;
+}
+
+/// Bytes of this process that are in memory; 0 if that is unknown.
+double
+residentSet (int statm)
+{
+  std::array<char, 128> text{};
+  const ssize_t size = ::pread (statm, text.data (), text.size () - 1, 0);
+  // The first number is the size of the program, the second its resident set, both in pages.
+  const char* const second = size > 0 ? std::strchr (text.data (), ' ') : nullptr;
+  return second == nullptr
+             ? 0.0
+             : std::strtod (second, nullptr) * static_cast<double> (::sysconf (_SC_PAGESIZE));
 }
 
 } // namespace
@@ -131,15 +151,18 @@ keepLargeArraysIn (const std::filesystem::path& folder, std::size_t limit)
   ::close (file);
   scratchArrays ().folder = folder.string ();
   has_scratch = true;
-  std::thread ([most = MOST_RESIDENT * static_cast<double> (limit)] {
-    std::ifstream statm ("/proc/self/statm");
-    const auto page = static_cast<double> (::sysconf (_SC_PAGESIZE));
-    // Pages of the program, and those of its resident set.
-    for (double all = 0.0, resident = 0.0; statm.seekg (0) >> all >> resident;
-         std::this_thread::sleep_for (BETWEEN_LOOKS))
-      if (resident * page > most)
-        dropPages ();
-  }).detach ();
+  try {
+    std::thread ([most = MOST_RESIDENT * static_cast<double> (limit)] {
+      const int statm = ::open ("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+      for (;; std::this_thread::sleep_for (BETWEEN_LOOKS))
+        if (residentSet (statm) > most)
+          dropPages ();
+    }).detach ();
+  }
+  catch (const std::system_error&) {
+    // No thread can be started: pages leave memory when the system needs it, and the report tells
+    // if the limit was exceeded.
+  }
 }
 
 ScratchUse
