@@ -27,7 +27,7 @@ struct RemadeZones
 {
   Flags is_remade; ///< of each point: its triangles were made anew; or empty
   Flags is_noisy;  ///< of each point: the last zone with it was noise, and a large one; or empty
-  bool is_noise = false; ///< a quarter of the points or more are in zones that are noise
+  bool is_noise = false; ///< more than a quarter of the points are in zones that are noise
 
   std::size_t points () const
   {

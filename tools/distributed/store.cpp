@@ -16,6 +16,7 @@ namespace pcl::floater {
 namespace {
 constexpr std::uint64_t MAGIC = 0x0a42464c54434c50ULL; // "PLCTLFB\n" on a little-endian machine
 constexpr std::uint64_t PIECE = 16384; // bytes; what is read at a time, to compare its checksum
+constexpr std::uint32_t MOST_ARRAYS = 64;
 
 struct Head
 {
@@ -132,12 +133,12 @@ ArrayFile::ArrayFile (WorkFile file, std::uint64_t plan) : file_ (std::move (fil
     file_.refuse ("has the format version " + std::to_string (head.version) +
                   ", and this program " + std::to_string (WORK_FORMAT) +
                   "; use the version that made it, or an empty work folder");
-  const std::size_t table_size = head.arrays * sizeof (ArrayEntry);
+  table_.resize (std::min (head.arrays, MOST_ARRAYS));
+  const std::size_t table_size = table_.size () * sizeof (ArrayEntry);
   if (size - sizeof (head) < table_size)
     refuseTruncated (head.size);
-  table_.resize (head.arrays);
   file_.read (sizeof (head), table_size, table_.data ());
-  if (head.checksum != checksumOf (head, table_))
+  if (head.checksum != checksumOf (head, table_) || head.arrays > MOST_ARRAYS)
     file_.refuse ("is damaged; delete it and run again");
   if (head.plan != plan)
     file_.refuse ("belongs to another plan; delete it and run again, or name another work folder");
