@@ -161,7 +161,6 @@ private:
   {
     double overlap;
     Index one, other; // tetrahedra, the smaller number first
-    bool is_sure;     // has no free corner, and is not at a boundary
   };
 
   void findNear ()
@@ -210,9 +209,7 @@ private:
         if (!std::isfinite (overlap)) // the facet has hardly any area
           overlap = 0.0;
         overlap_[t][k] = overlap_[other][l] = overlap;
-        const bool is_sure = !anyCorner (
-            facet, [&] (Index p) { return place_.is_free[p] != 0 || place_.is_boundary[p] != 0; });
-        facets_.push_back ({overlap, t, other, is_sure});
+        facets_.push_back ({overlap, t, other});
       }
     std::sort (facets_.begin (), facets_.end (), [] (const Facet& f, const Facet& g) {
       return f.overlap != g.overlap
@@ -289,13 +286,11 @@ private:
   void placeFacets ()
   {
     ProgressLoop progress (run_);
-    for (const bool is_sure : {true, false})
-      for (const Facet& f : facets_) {
-        progress.next ();
-        if (f.is_sure == is_sure && is_frame_[f.one][sideTo (f.one, f.other)] == 0 &&
-            !sides_.put (f.one, f.other, false))
-          sides_.put (f.one, f.other, true);
-      }
+    for (const Facet& f : facets_) {
+      progress.next ();
+      if (is_frame_[f.one][sideTo (f.one, f.other)] == 0 && !sides_.put (f.one, f.other, false))
+        sides_.put (f.one, f.other, true);
+    }
   }
 
   // The front of each set of tetrahedra is where most of the frame has it; without a frame, the
