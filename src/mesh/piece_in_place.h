@@ -3,7 +3,6 @@
 // What is wrong with the mesh in a place, before and after it is made anew.
 #pragma once
 
-#include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "mesh/folds.h"
 #include "mesh/two_sides.h"
@@ -69,34 +68,27 @@ public:
     return found;
   }
 
-  /// By Euler's formula, with a point of its own for each fan of a point.
+  /// By Euler's formula, with a point of its own for each fan of a point: open fans are as many as
+  /// boundary edges.
   long twiceHandles (const RunContext& run) const
   {
-    const auto corner = [] (Index t, std::uint8_t side) { return 3 * t + side; };
-    const auto triangles = static_cast<Index> (mesh_.triangles.size ());
-    DisjointSets fans (std::size_t{3} * triangles);
-    for (Index t = 0; t < triangles; ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        if (const MeshEdge mate = mesh_.mate ({t, side}); mate.triangle != NONE) {
-          fans.join (corner (t, TriangleMesh::next (side)),
-                     corner (mate.triangle, TriangleMesh::previous (mate.side)));
-          fans.join (corner (t, TriangleMesh::previous (side)),
-                     corner (mate.triangle, TriangleMesh::next (mate.side)));
-        }
-    long points = 0;
-    const std::vector<Index> point_of = std::move (fans).number ([&points] (Index) {
-      ++points;
-      return true;
-    });
-    TriangleMesh split;
-    for (Index t = 0; t < triangles; ++t)
-      split.triangles.push_back (
-          {point_of[corner (t, 0)], point_of[corner (t, 1)], point_of[corner (t, 2)]});
-    split.connect (static_cast<std::size_t> (points), run);
-    const auto open = static_cast<long> (boundaryEdges (split).size ()),
-               loops = static_cast<long> (boundaryLoops (split, run).size ()),
-               pieces = static_cast<long> (findComponents (split, run).count);
-    return 2 * pieces - loops - points + (static_cast<long> (triangles) + open) / 2;
+    const std::vector<MeshEdge> border = boundaryEdges (mesh_);
+    const Flags is_open = boundaryPoints (mesh_);
+    Flags is_met (3 * mesh_.triangles.size (), 0);
+    long loops = 0;
+    for (MeshEdge e : border) {
+      loops += is_met[std::size_t{3} * e.triangle + e.side] == 0 ? 1 : 0;
+      while (is_met[std::size_t{3} * e.triangle + e.side]++ == 0)
+        for (MeshEdge m = e; m.triangle != NONE; m = mesh_.mate (e))
+          e = {m.triangle, TriangleMesh::next (m.side)};
+    }
+    long closed = 0; // points
+    for (std::size_t p = 0; p < is_open.size (); ++p)
+      closed += mesh_.triangle_of[p] != NONE && is_open[p] == 0 ? 1 : 0;
+    const auto triangles = static_cast<long> (mesh_.triangles.size ()),
+               open = static_cast<long> (border.size ()),
+               pieces = static_cast<long> (findComponents (mesh_, run).count);
+    return 2 * pieces - loops - closed + (triangles - open) / 2;
   }
 
   /// Triangles that cross, folds, open edges that are not of a boundary that stays, and points inside

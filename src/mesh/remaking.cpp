@@ -39,10 +39,9 @@ public:
   }
 
   // A zone grows by the points at which its new triangles do not fit to the others.
-  // \param is_whole all points are in it
   // \param is_noise out: whether the zone is noise
   // \return nothing if the zone is to stay as it was
-  std::optional<NewZone> remake (Row zone, bool is_whole, std::uint8_t& is_noise) const
+  std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise) const
   {
     is_noise = 1;
     if (looksNoisy (zone))
@@ -62,13 +61,14 @@ public:
       const std::vector<Index> misfits = after->misfits (run_);
       if (misfits.empty ()) {
         const PieceInPlace before (at.place, at.old, {}, run_);
-        while (!is_whole && after->isManifold () &&
-               after->twiceHandles (run_) > before.twiceHandles (run_)) {
+        while (after->isManifold () && after->twiceHandles (run_) > before.twiceHandles (run_)) {
           if (!cutHandle (at, *after, made))
             return std::nullopt;
           after.emplace (at.place, made.triangles, made.is_turned, run_);
         }
-        if (!isBetter (*after, before))
+        if (!after->isManifold () ||
+            static_cast<double> (after->faults (run_)) >
+                limits_.faults_left * static_cast<double> (before.faults (run_)))
           return std::nullopt;
         return newZone (std::move (free), at, made);
       }
@@ -102,17 +102,6 @@ private:
         break;
     }
     return TRIED_SHARE * flawed > tried;
-  }
-
-  bool isBetter (const PieceInPlace& after, const PieceInPlace& before) const
-  {
-    if (!after.isManifold ())
-      return false;
-    const double handles =
-        0.5 * static_cast<double> (after.twiceHandles (run_) - before.twiceHandles (run_));
-    return static_cast<double> (after.faults (run_)) +
-               limits_.handle_faults * std::max (handles, 0.0) <=
-           limits_.faults_left * static_cast<double> (before.faults (run_));
   }
 
   // The geometry of a place, as far as the search for necks needs it.
@@ -224,19 +213,6 @@ private:
   const RunContext run_;
 };
 
-// All points as one zone.
-DisturbedZones
-zoneOfAll (std::size_t points)
-{
-  DisturbedZones all;
-  all.points.offsets = {0, static_cast<Index> (points)};
-  all.points.ids.resize (points);
-  std::iota (all.points.ids.begin (), all.points.ids.end (), Index{0});
-  all.is_free.assign (points, 1);
-  all.is_boundary.assign (points, 0);
-  return all;
-}
-
 } // namespace
 
 void
@@ -246,20 +222,9 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& nei
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
-  int last = remade.is_noisy.empty () ? 0 : 1; // 0: all points, if many are in zones
-  for (bool whole_loops = true; rings >= last;) {
-    const bool is_whole = rings == 0;
-    DisturbedZones zones =
-        findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                            is_whole ? widest : rings, whole_loops, limits.disturbance, run);
-    const bool are_few = 4 * zones.points.ids.size () <= positions.size ();
-    if (are_few && rings == widest)
-      last = 1;
-    if (is_whole &&
-        (are_few || std::count (zones.is_boundary.begin (), zones.is_boundary.end (), 1) > 0))
-      return;
-    if (is_whole)
-      zones = zoneOfAll (positions.size ());
+  for (bool whole_loops = true; rings > 0;) {
+    const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
+                                                     rings, whole_loops, limits.disturbance, run);
     if (!whole_loops || !zones.may_be_parts)
       --rings;
     whole_loops = false;
@@ -271,10 +236,8 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& nei
                                run.withThreads (1));
     remade.is_noisy.resize (positions.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), is_whole, is_noise[zone]);
+      made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);
     });
-    if (is_whole && !made[0]) // what is known of the zones in it remains true
-      return;
     TriangleMesh spliced;
     spliced.triangles = spliceZones (mesh, made);
     std::size_t noisy_points = 0;

@@ -17,9 +17,6 @@ struct RemakingLimits
                              ///< folded sheets, 8 had lids between 7 and 8, and none shorter ones
   double faults_left = 0.6; ///< share of the faults of a zone that may be left. A slit along a true
                             ///< fold has two open edges for each folded one that closes it
-  /// Faults that a handle more counts as, where all points are made anew: as many as the longest
-  /// loop around a neck has edges (NeckLimits).
-  double handle_faults = 12.0;
 };
 
 /// What remakeZones () has done.
@@ -37,13 +34,11 @@ struct RemadeZones
 
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that
 /// came out wrong again, narrower by a ring each time. At first, loops that are gaps in part are
-/// gaps all along. If a quarter of the points are in zones even then, and no boundary stays, all
-/// are made anew at once the first time, as a body of thin walls needs; only then may handles come
-/// in, which cutNecks () may cut. A zone grows by points at which its new triangles do not fit to
-/// those around. It stays as it was if its new triangles fit nowhere, have a handle more that no
-/// loop cuts (the cheapest one that does is cut, whatever it costs: see cutOneNeck), a lid on an
-/// opening, or not clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh
-/// contradict each other; also if it is large and some places in it are noise (see isNoise).
+/// gaps all along. A zone grows by points at which its new triangles do not fit to those around. It
+/// stays as it was if its new triangles fit nowhere, have a handle more that no loop cuts (the
+/// cheapest one that does is cut, whatever it costs: see cutOneNeck), a lid on an opening, or not
+/// clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each
+/// other; also if it is large and some places in it are noise (see isNoise).
 /// Components may come out with either side as the front. Points of new components by themselves are
 /// left without a triangle. O(n), plus some 60 microseconds for a point of a zone; zones on all
 /// threads.

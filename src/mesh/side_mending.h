@@ -53,7 +53,7 @@ private:
   static constexpr std::size_t WORK = 2000, LEAST_WORK = 2'000'000;
 
   // Pieces of either side around a point, beyond one each; many if there is one side only.
-  // \param pieces if not nullptr: the tetrahedra of each piece, but for the largest of each side
+  // \param pieces if not nullptr: the tetrahedra of each piece, where its side has several
   std::size_t flawsAt (Index p, std::vector<std::vector<Index>>* pieces = nullptr)
   {
     constexpr std::size_t ENCLOSED = 100;
@@ -61,7 +61,7 @@ private:
     work_ += around.size ();
     for (const Index t : around)
       is_reached_[t] = 0;
-    std::array<std::size_t, 2> count{}, most{};
+    std::array<std::size_t, 2> count{};
     std::vector<std::vector<Index>> found;
     for (const Index start : around) {
       if (is_reached_[start]++ != 0)
@@ -75,16 +75,13 @@ private:
             piece_.push_back (other);
         }
       ++count[side];
-      most[side] = std::max (most[side], piece_.size ());
       if (pieces != nullptr)
         found.push_back (piece_);
     }
     if (pieces != nullptr)
-      for (std::vector<Index>& piece : found) {
-        const std::uint8_t side = is_behind_[piece.front ()];
-        if (count[side] > 1 && (piece.size () < most[side] || piece.size () < 4))
+      for (std::vector<Index>& piece : found)
+        if (count[is_behind_[piece.front ()]] > 1)
           pieces->push_back (std::move (piece));
-      }
     return count[0] > 0 && count[1] > 0 ? count[0] + count[1] - 2 : ENCLOSED;
   }
 
@@ -112,10 +109,7 @@ private:
       bool is_allowed = true;
       double cost = 0.0;
       for (const Index t : move) {
-        int free_corners = 0;
-        for (const Index q : all_.corners[t])
-          free_corners += q != NONE && is_free_[q] != 0 ? 1 : 0;
-        is_allowed = is_allowed && !all_.isInfinite (t) && free_corners >= 2;
+        is_allowed = is_allowed && !all_.isInfinite (t);
         for (unsigned k = 0; k < 4; ++k)
           cost +=
               is_behind_[all_.neighbors[t][k]] == is_behind_[t] ? overlap_[t][k] : -overlap_[t][k];

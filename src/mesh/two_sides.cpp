@@ -137,7 +137,6 @@ public:
     RemadePlace made;
     if (all_.size () == 0)
       return made;
-    findNear ();
     measureFacets ();
     placeFrame ();
     joinOutside ();
@@ -163,15 +162,6 @@ private:
     Index one, other; // tetrahedra, the smaller number first
   };
 
-  void findNear ()
-  {
-    is_near_.resize (all_.size ());
-    for (Index t = 0; t < all_.size (); ++t)
-      for (const Index p : all_.corners[t])
-        if (p != NONE)
-          is_near_[t] = is_near_[t] | place_.is_free[p] | place_.is_rim[p];
-  }
-
   SeenCentre seenCentre (Index p, const Vector3d& centre, const Vector3d& normal,
                          double radius) const
   {
@@ -189,7 +179,7 @@ private:
       for (unsigned k = 0; k < 4; ++k) {
         const Index other = all_.neighbors[t][k];
         const Triangle facet = all_.facet (t, k);
-        if (other < t || isCorner (facet, NONE) || is_near_[t] == 0 || is_near_[other] == 0)
+        if (other < t || isCorner (facet, NONE))
           continue;
         const unsigned l = sideTo (other, t);
         const Vector3d& a = place_.positions[facet[0]];
@@ -263,7 +253,7 @@ private:
   void joinOutside ()
   {
     for (Index t = 0; t < all_.size (); ++t) {
-      if (is_near_[t] == 0 || !all_.isInfinite (t))
+      if (!all_.isInfinite (t))
         continue;
       for (unsigned k = 0; k < 4; ++k) {
         const Index other = all_.neighbors[t][k];
@@ -342,7 +332,6 @@ private:
   const RunContext& run_;
   const Tetrahedra all_;
   SidesOfSpace sides_;
-  Flags is_near_; // of each tetrahedron: has a free corner, or one of the rim
   std::vector<std::array<double, 4>> overlap_;        // across each facet
   std::vector<std::array<std::uint8_t, 4>> is_frame_; // of each facet
   std::vector<Facet> facets_;                         // by falling overlap

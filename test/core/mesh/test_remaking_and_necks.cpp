@@ -175,27 +175,6 @@ TEST (Remaking, MakesAZoneAnewUnlessItIsNoise)
   }
 }
 
-// A torus comes back from a mesh as of a sphere, at first. Later, no handle may come in.
-TEST (Remaking, MakesAllPointsAnewIfMostAreDisturbed)
-{
-  Mesh torus = samples::torus (40, 16);
-  RandomStream random (7);
-  for (Eigen::Vector3d& position : torus.positions)
-    position += 0.01 * normalVector (random);
-  const Triangles wrong = remakePlace (placeOf (evenSphere (torus.positions.size ())), 1).triangles;
-  for (const bool is_first : {true, false}) {
-    TriangleMesh mesh = connected (wrong, torus.positions.size ());
-    CrossingPairs crossing = findSelfIntersections (wrong, torus.positions, 1);
-    RemadeZones remade;
-    if (!is_first)
-      remade.is_noisy.assign (torus.positions.size (), 0);
-    remakeZones (mesh, torus.positions, nearestOf (torus.positions, 20),
-                 std::vector<float> (torus.positions.size (), 0.2F), crossing, 3, remade, {}, 1);
-    expectTopology (mesh.triangles, torus.positions.size (), 1, is_first ? 0 : 2, 0);
-    EXPECT_EQ (crossing.empty (), is_first);
-  }
-}
-
 // A point without a triangle, and a hole that its loss left.
 TEST (Remaking, BringsPointsBack)
 {
