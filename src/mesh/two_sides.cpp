@@ -181,7 +181,9 @@ private:
         const Triangle facet = all_.facet (t, k);
         if (other < t || isCorner (facet, NONE))
           continue;
-        const unsigned l = sideTo (other, t);
+        unsigned l = 0; // its facet towards `t`
+        while (all_.neighbors[other][l] != t)
+          ++l;
         const Vector3d& a = place_.positions[facet[0]];
         const Vector3d ab = place_.positions[facet[1]] - a, ac = place_.positions[facet[2]] - a;
         Vector3d normal = ac.cross (ab); // into the tetrahedron
@@ -208,15 +210,6 @@ private:
     });
   }
 
-  // The facet of `t` towards `other`.
-  unsigned sideTo (Index t, Index other) const
-  {
-    unsigned k = 0;
-    while (all_.neighbors[t][k] != other)
-      ++k;
-    return k;
-  }
-
   // The tetrahedra before and behind a triangle, NONE if it is no facet.
   std::array<Index, 2> besideTriangle (const Triangle& triangle) const
   {
@@ -235,12 +228,10 @@ private:
   void placeFrame ()
   {
     front_of_patch_.assign (place_.patches, NONE);
-    is_frame_.assign (all_.size (), {});
     for (std::size_t i = 0; i < place_.frame.size (); ++i) {
       const auto [before, behind] = besideTriangle (place_.frame[i]);
       if (before == NONE)
         continue;
-      is_frame_[before][sideTo (before, behind)] = is_frame_[behind][sideTo (behind, before)] = 1;
       Index& front = front_of_patch_[place_.patch_of[i]];
       if (front == NONE)
         front = before;
@@ -278,7 +269,7 @@ private:
     ProgressLoop progress (run_);
     for (const Facet& f : facets_) {
       progress.next ();
-      if (is_frame_[f.one][sideTo (f.one, f.other)] == 0 && !sides_.put (f.one, f.other, false))
+      if (!sides_.put (f.one, f.other, false))
         sides_.put (f.one, f.other, true);
     }
   }
@@ -332,11 +323,10 @@ private:
   const RunContext& run_;
   const Tetrahedra all_;
   SidesOfSpace sides_;
-  std::vector<std::array<double, 4>> overlap_;        // across each facet
-  std::vector<std::array<std::uint8_t, 4>> is_frame_; // of each facet
-  std::vector<Facet> facets_;                         // by falling overlap
-  std::vector<Index> front_of_patch_;                 // a tetrahedron, NONE if there is none
-  Flags is_behind_;                                   // of each tetrahedron
+  std::vector<std::array<double, 4>> overlap_; // across each facet
+  std::vector<Facet> facets_;                  // by falling overlap
+  std::vector<Index> front_of_patch_;          // a tetrahedron, NONE if there is none
+  Flags is_behind_;                            // of each tetrahedron
   Flags is_turned_;
 };
 
