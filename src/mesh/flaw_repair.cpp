@@ -23,7 +23,7 @@ isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair re
           const Ridges& ridges, Normal&& normal)
 {
   const bool bad = repair == Repair::BEFORE_REMAKING;
-  if (bad && cost.isTurned (mesh.triangles[t]))
+  if (bad && (cost.isTurned (mesh.triangles[t]) || cost.isFlat (mesh.triangles[t])))
     return true;
   const Vector3d own = normal (t);
   for (std::uint8_t side = 0; side < 3; ++side)

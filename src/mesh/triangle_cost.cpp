@@ -71,6 +71,15 @@ TriangleCost::isLong (const Triangle& corners) const
 }
 
 bool
+TriangleCost::isFlat (const Triangle& corners) const
+{
+  const Vector3d ab = positions_[corners[1]] - positions_[corners[0]],
+                 ac = positions_[corners[2]] - positions_[corners[0]];
+  constexpr double HEIGHT = std::numeric_limits<float>::epsilon ();
+  return ab.cross (ac).norm () <= HEIGHT * std::max (ab.squaredNorm (), ac.squaredNorm ());
+}
+
+bool
 TriangleCost::isTurned (const Triangle& corners) const
 {
   const auto [a, b, c] = corners;

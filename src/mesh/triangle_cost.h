@@ -59,6 +59,9 @@ public:
   /// True if a triangle is turned (see CostLimits).
   bool isTurned (const Triangle& corners) const;
 
+  /// True if the corners of a triangle are on one line in single precision.
+  bool isFlat (const Triangle& corners) const;
+
   /// True if a triangle is long (see CostLimits); false without spacings.
   bool isLong (const Triangle& corners) const;
 
