@@ -3,7 +3,6 @@
 #include "mesh/hole_filling.h"
 
 #include "core/geometry.h"
-#include "core/order_statistics.h"
 
 #include <set>
 #include <stdexcept>
@@ -61,44 +60,57 @@ private:
     return cost_ (p, q, r) + area_cost_ * double_area;
   }
 
-  // Cuts off ears until the polygon is small enough: in each round the cheapest of them, none beside
-  // another. Returns false if too few ears are allowed.
+  // Repeatedly cuts off the ear of least cost until the polygon is small enough. Returns false if
+  // too few ears are allowed.
   template <typename Allowed>
   bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles, std::set<Edge>& ears,
                 Allowed&& allowed) const
   {
-    // Nearly as if only the cheapest was cut each time. With 4, a third more pairs of triangles cross
-    // in an airborne scan.
-    constexpr std::size_t SHARE = 32;
-    ProgressLoop progress (run_);
-    while (polygon.size () > limits_.largest_polygon) {
-      const std::size_t count = polygon.size (),
-                        most = std::min (count - limits_.largest_polygon, count / SHARE + 1);
-      std::vector<std::pair<double, std::size_t>> order;
-      for (std::size_t i = 0; i < count; ++i) {
-        progress.next ();
-        order.emplace_back (
-            fillCost (polygon[(i + count - 1) % count], polygon[i], polygon[(i + 1) % count]), i);
-      }
-      std::sort (order.begin (), order.end ());
-      Flags stays (count, 0);
-      std::vector<std::size_t> cut;
-      for (const auto& [cost, i] : order) {
-        const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-        const Index a = polygon[before], b = polygon[after];
-        if (cut.size () == most || stays[i] != 0 || !allowed (a, b))
-          continue;
-        triangles.push_back ({a, polygon[i], b});
-        ears.insert (std::minmax (a, b));
-        stays[before] = stays[after] = 1;
-        cut.push_back (i);
-      }
-      if (cut.empty ())
-        return false;
-      std::sort (cut.begin (), cut.end ());
-      eraseRows (polygon, cut);
+    if (polygon.size () <= limits_.largest_polygon)
+      return true;
+    const auto count = static_cast<Index> (polygon.size ());
+    std::vector<Index> before (count), after (count);
+    for (Index i = 0; i < count; ++i) {
+      before[i] = i == 0 ? count - 1 : i - 1;
+      after[i] = i + 1 == count ? 0 : i + 1;
     }
-    return true;
+    const auto earCost = [&] (Index i) {
+      return fillCost (polygon[before[i]], polygon[i], polygon[after[i]]);
+    };
+    std::set<std::pair<double, Index>> queue;
+    std::vector<double> queued (count);
+    ProgressLoop progress (run_);
+    for (Index i = 0; i < count; ++i) {
+      progress.next ();
+      queue.emplace (queued[i] = earCost (i), i);
+    }
+    std::size_t left = count;
+    while (left > limits_.largest_polygon && !queue.empty ()) {
+      progress.next ();
+      const Index i = queue.begin ()->second;
+      queue.erase (queue.begin ());
+      const Index a = before[i], b = after[i];
+      if (!allowed (polygon[a], polygon[b])) {
+        queued[i] = -1.0; // not in the queue until an adjacent corner is cut off
+        continue;
+      }
+      triangles.push_back ({polygon[a], polygon[i], polygon[b]});
+      ears.insert (std::minmax (polygon[a], polygon[b]));
+      after[a] = b;
+      before[b] = a;
+      after[i] = NONE;
+      --left;
+      for (Index j : {a, b}) {
+        queue.erase ({queued[j], j});
+        queue.emplace (queued[j] = earCost (j), j);
+      }
+    }
+    std::vector<Index> rest;
+    for (Index i = 0; i < count; ++i)
+      if (after[i] != NONE)
+        rest.push_back (polygon[i]);
+    polygon.swap (rest);
+    return polygon.size () <= limits_.largest_polygon;
   }
 
   const TriangleMesh& mesh_;

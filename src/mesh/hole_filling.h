@@ -88,7 +88,7 @@ struct HoleFillingLimits
 
 /// Fills every loop that is not kept open by triangles of least total cost between its points (see
 /// PolygonFilling). A loop longer than HoleFillingLimits::largest_polygon is first shortened by
-/// cutting off ears, the cheapest first. Edges of the mesh are not used twice. A loop is kept
+/// repeatedly cutting off the ear of least cost. Edges of the mesh are not used twice. A loop is kept
 /// open if this would be needed, or if it goes round a single triangle. O(m^3) for a loop of m points
 /// up to that limit, O(m log m) beyond.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
