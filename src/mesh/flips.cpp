@@ -56,18 +56,6 @@ EdgeFlipper::run ()
 }
 
 bool
-EdgeFlipper::mayImprove (MeshEdge e) const
-{
-  const MeshEdge m = mesh_.mate (e);
-  if (m.triangle == NONE)
-    return false;
-  const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
-  const TriangleCost::Value cab = cost_ (c, a, b), dba = cost_ (d, b, a);
-  return cab.unit_normal.dot (dba.unit_normal) < 0.0 ||
-         cost_ (c, a, d).cost + cost_ (d, b, c).cost < cab.cost + dba.cost;
-}
-
-bool
 EdgeFlipper::improves (MeshEdge e) const
 {
   const MeshEdge m = mesh_.mate (e);
@@ -118,7 +106,7 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
     for (auto t = static_cast<Index> (task * TRIANGLES_PER_TASK); t < last; ++t)
       for (std::uint8_t side = 0; side < 3; ++side) {
         const Index u = mesh.neighbors[t][side];
-        if (u != NONE && t < u && flipper.mayImprove ({t, side}))
+        if (u != NONE && t < u && flipper.improves ({t, side}))
           found[task].push_back ({t, side});
       }
   });

@@ -33,12 +33,10 @@ public:
   /// \return number of flips
   std::size_t run ();
 
-  /// False for edges whose flip cannot lower the cost, whatever is beside their triangles.
-  bool mayImprove (MeshEdge e) const;
-
-private:
+  /// Whether a flip lowers the cost.
   bool improves (MeshEdge e) const;
 
+private:
   TriangleMesh& mesh_;
   CachedCost& cost_;
   RunContext run_;
