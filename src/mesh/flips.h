@@ -33,7 +33,7 @@ public:
   /// \return number of flips
   std::size_t run ();
 
-  /// Whether a flip lowers the cost.
+  /// Whether the flip of this edge is possible and lowers the cost of the mesh.
   bool improves (MeshEdge e) const;
 
 private:

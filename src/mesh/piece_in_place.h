@@ -79,6 +79,7 @@ public:
     for (MeshEdge e : border) {
       loops += is_met[std::size_t{3} * e.triangle + e.side] == 0 ? 1 : 0;
       while (is_met[std::size_t{3} * e.triangle + e.side]++ == 0)
+        // To the next boundary edge, through the fan around the end of this one.
         for (MeshEdge m = e; m.triangle != NONE; m = mesh_.mate (e))
           e = {m.triangle, TriangleMesh::next (m.side)};
     }

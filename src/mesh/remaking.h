@@ -38,10 +38,9 @@ struct RemadeZones
 /// stays as it was if its new triangles fit nowhere, have a handle more that no loop cuts (the
 /// cheapest one that does is cut, whatever it costs: see cutOneNeck), a lid on an opening, or not
 /// clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each
-/// other; also if it is large and some places in it are noise (see isNoise).
-/// Components may come out with either side as the front. Points of new components by themselves are
-/// left without a triangle. O(n), plus some 60 microseconds for a point of a zone; zones on all
-/// threads.
+/// other; also if it is large and some places in it are noise (see isNoise). Components may come out
+/// with either side as the front. Points of new components by themselves are left without a triangle.
+/// O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
