@@ -43,6 +43,9 @@ public:
       is_on_loop_[loop_.back ()] = 1;
     }
     positions_ = valuesAt (positions, points_);
+    for (std::size_t i = 0; i < loop.size (); ++i)
+      axis_ += positions[loop[i]].cross (positions[loop[(i + 1) % loop.size ()]]);
+    axis_.normalize ();
     normals_ = valuesAt (geometry.stars.normals, points_);
     spacing_ = valuesAt (geometry.meshSpacing (), points_);
     neighbors_ = rowsWithin (geometry.neighbors, points_);
@@ -187,9 +190,10 @@ private:
     return edges;
   }
 
-  // The angles between triangles, times the lengths of their edges; a crossing pair counts like a
-  // fold along an edge. Planes of points are not asked: near a false neck, they are those of no
-  // sheet.
+  // The angles between triangles, times the lengths of their edges. Edges along the axis count little:
+  // they make the neck round, and a long thin limb would have more of them than two caps. A crossing
+  // pair counts like a fold along an edge. Planes of points are not asked: near a false neck, they are
+  // those of no sheet.
   // \param most that matters: pairs are not looked for beyond
   double costOf (const TriangleMesh& mesh,
                  double most = std::numeric_limits<double>::infinity ()) const
@@ -203,9 +207,10 @@ private:
     for (Index t = 0; t < mesh.triangles.size (); ++t)
       for (std::uint8_t side = 0; side < 3; ++side)
         if (const Index u = mesh.neighbors[t][side]; u < t) { // NONE is above
-          const double own =
-              (positions_[mesh.from ({t, side})] - positions_[mesh.to ({t, side})]).norm ();
-          bending += own * std::acos (std::clamp (normals[t].dot (normals[u]), -1.0, 1.0));
+          const Vector3d edge = positions_[mesh.to ({t, side})] - positions_[mesh.from ({t, side})];
+          const double own = edge.norm ();
+          bending += own * edge.normalized ().cross (axis_).squaredNorm () *
+                     std::acos (std::clamp (normals[t].dot (normals[u]), -1.0, 1.0));
           length += own;
           ++edges;
         }
@@ -222,6 +227,7 @@ private:
   std::vector<Index> points_, triangles_; // of the mesh
   std::vector<Index> loop_;
   Positions positions_;
+  Vector3d axis_ = Vector3d::Zero (); // of the neck
   Normals normals_;
   std::vector<float> spacing_;
   CsrLists neighbors_;
