@@ -3,6 +3,7 @@
 #include "consensus/consensus_method.h"
 
 #include "core/order_statistics.h"
+#include "mesh/crossed_fillings.h"
 
 namespace pcl::floater {
 namespace {
@@ -31,13 +32,12 @@ makeConsensusMesh (Surface& surface, const Positions& positions, LocalGeometry& 
   geometry.stars.normals = std::move (normals);
 }
 
-// Decides which loops stay open, widens those by the automatic policy (see widenHoles), and fills the
-// others. O(n) plus judgeLoops () and fillHoles ().
-void
-closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometry,
-            const HoleOptions& holes, const SurfaceLimits& limits, const RunContext& run)
+// Decides which loops stay open, and widens those by the automatic policy (see widenHoles). O(n) plus
+// judgeLoops ().
+std::vector<BoundaryLoop>
+chooseLoops (TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
+             const HoleOptions& holes, const SurfaceLimits& limits, const RunContext& run)
 {
-  TriangleMesh& mesh = surface.mesh;
   const Positions& positions = points.workingPositions ();
   const Normals& normals = geometry.stars.normals;
   const MeshComponents components = findComponents (mesh, run);
@@ -49,11 +49,7 @@ closeHoles (Surface& surface, const Points& points, const LocalGeometry& geometr
   else
     judgeLoops (mesh, loops, positions, geometry.neighbors, normals, limits.open_loops, run);
   chooseOpenLoops (loops, components.count, holes, 1.0 / points.scale);
-  const TriangleCost cost (positions, normals, nullptr, limits.finish.cost);
-  surface.holes_filled = fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
-  for (BoundaryLoop& loop : loops)
-    if (isDoubtful (loop.judgement, limits.open_loops))
-      surface.doubtful_loops.push_back (std::move (loop));
+  return loops;
 }
 
 // Orients the normals of points without triangle like the mean normal of the vertices among their
@@ -88,6 +84,42 @@ leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
   loops.erase (std::remove_if (loops.begin (), loops.end (), isClosed), loops.end ());
 }
 
+// Finishes a mesh with filled loops. Where making zones anew does not cure what fillings cross, begins
+// again with others.
+void
+finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
+               const SurfaceSettings& settings, const CrossedFillings& crossed,
+               std::vector<BoundaryLoop>& loops, const RunContext& run)
+{
+  FinishSettings finish;
+  finish.flip_edges = settings.flip_edges;
+  finish.open_boundary = true;
+  finish.repair = finish.remake_sheets = settings.repair;
+  finish.are_points_added = !points.stacked.of.empty ();
+  finish.facing = settings.facing;
+  finish.limits = settings.limits.finish;
+  const HolePolicy policy = settings.holes.policy;
+  if (policy != HolePolicy::AUTO && policy != HolePolicy::CLOSE_ALL)
+    finish.limits.remaking.disturbance.closes_gaps = false;
+  TriangleMesh other;
+  Normals normals;
+  if (!crossed.empty ()) {
+    normals = geometry.stars.normals;
+    finish.gives_up = [&] (const TriangleMesh& made, const CrossingPairs& pairs) {
+      other.triangles = crossed.replaced (made, pairs, policy == HolePolicy::AUTO, loops);
+      return !other.triangles.empty () && other.connect (points.size (), run);
+    };
+  }
+  surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
+  if (!surface.finish.gave_up)
+    return;
+  finish.gives_up = {};
+  finish.is_noise = surface.finish.remade.is_noise;
+  surface.mesh = std::move (other);
+  geometry.stars.normals = std::move (normals);
+  surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
+}
+
 } // namespace
 
 Surface
@@ -95,27 +127,30 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
              const RunContext& run)
 {
   const SurfaceLimits& limits = settings.limits;
+  const Positions& positions = points.workingPositions ();
   Surface surface;
+  TriangleMesh& mesh = surface.mesh;
   run.beginStage (Stage::CONSENSUS);
-  makeConsensusMesh (surface, points.workingPositions (), geometry, run);
+  makeConsensusMesh (surface, positions, geometry, run);
 
   run.beginStage (Stage::HOLES);
-  closeHoles (surface, points, geometry, settings.holes, limits, run);
-  orientMissingNormals (surface.mesh, geometry.neighbors, geometry.stars.normals, run);
+  std::vector<BoundaryLoop> loops =
+      chooseLoops (mesh, points, geometry, settings.holes, limits, run);
+  const TriangleCost cost (positions, geometry.stars.normals, nullptr, limits.finish.cost);
+  const std::size_t before = mesh.triangles.size ();
+  fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
+  orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
+  const CrossedFillings crossed (mesh, before, loops, positions, cost, run);
 
   run.beginStage (Stage::FLIPS);
-  FinishSettings finish;
-  finish.flip_edges = settings.flip_edges;
-  finish.open_boundary = true;
-  finish.repair = finish.remake_sheets = settings.repair;
-  finish.are_points_added = !points.stacked.of.empty ();
-  finish.facing = settings.facing;
-  finish.limits = limits.finish;
-  if (settings.holes.policy != HolePolicy::AUTO && settings.holes.policy != HolePolicy::CLOSE_ALL)
-    finish.limits.remaking.disturbance.closes_gaps = false;
-  surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
+  finishSurface (surface, points, geometry, settings, crossed, loops, run);
+  for (BoundaryLoop& loop : loops) {
+    surface.holes_filled += loop.keep_open ? 0 : 1;
+    if (isDoubtful (loop.judgement, limits.open_loops))
+      surface.doubtful_loops.push_back (std::move (loop));
+  }
   if (surface.finish.remade.points () > 0)
-    leaveOutClosed (surface.mesh, surface.doubtful_loops);
+    leaveOutClosed (mesh, surface.doubtful_loops);
   return surface;
 }
 

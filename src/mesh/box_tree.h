@@ -58,11 +58,12 @@ public:
 
   /// Calls visit (j) for all boxes j that overlap or touch a given box, ascending, until it returns
   /// true.
+  /// \return whether it has
   template <typename Visit>
-  void forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
+  bool forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
   {
     const Box box = roundOutwards (exact);
-    forMet ([&box] (const Box& other) { return box.overlaps (other); }, visit);
+    return forMet ([&box] (const Box& other) { return box.overlaps (other); }, visit);
   }
 
   /// Calls visit (j) for all boxes j that a ray meets, unsorted, until it returns true. O(log n)
@@ -152,9 +153,9 @@ private:
 
   // Calls visit for the boxes that satisfy is_met, until it returns true.
   template <typename IsMet, typename Visit>
-  void forMet (const IsMet& is_met, Visit&& visit) const
+  bool forMet (const IsMet& is_met, Visit&& visit) const
   {
-    forNodes (is_met, [&] (std::size_t leaf) {
+    return forNodes (is_met, [&] (std::size_t leaf) {
       for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
         if (is_met (boxes_[i]) && visit (i))
           return true;
@@ -165,7 +166,7 @@ private:
   // Calls visit for the leaves from `first` on whose nodes all satisfy is_met, ascending, until it
   // returns true.
   template <typename IsMet, typename Visit>
-  void forNodes (IsMet&& is_met, Visit&& visit, std::size_t first = 0) const
+  bool forNodes (IsMet&& is_met, Visit&& visit, std::size_t first = 0) const
   {
     struct Node
     {
@@ -184,13 +185,14 @@ private:
         continue;
       if (node.level == 0) {
         if (visit (node.index))
-          return;
+          return true;
         continue;
       }
       const std::size_t begin = node.index * FAN;
       for (std::size_t i = std::min (levels_[node.level - 1].size (), begin + FAN); i-- > begin;)
         stack[left++] = {node.level - 1, i};
     }
+    return false;
   }
 
   // One past the last box of a leaf.

@@ -4,6 +4,7 @@
 
 #include "mesh/flips.h"
 #include "mesh/hole_filling.h"
+#include "mesh/trimming.h"
 
 namespace pcl::floater {
 namespace {
@@ -34,6 +35,32 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
       measureLoop (pinholes.back (), positions, spacing);
     }
   return fillHoles (mesh, pinholes, positions, cost, {}, run);
+}
+
+// Removes triangles at the boundary that cross others. Points that they leave join elsewhere.
+// \return whether fewer cross then, and no point is lost; else the mesh stays as it was
+bool
+openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+               const SplitLimits& limits, CrossingPairs& crossing, const RunContext& run)
+{
+  Flags is_chosen = chooseCrossingAtBoundary (mesh, crossing);
+  if (is_chosen.empty ())
+    return false;
+  const auto countUnused = [&mesh] {
+    return std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE);
+  };
+  std::vector<Triangle> before = mesh.triangles;
+  const auto unused = countUnused ();
+  removeTriangles (mesh, std::move (is_chosen), run);
+  addMissingPoints (mesh, positions, neighbors, limits, run);
+  CrossingPairs after = findSelfIntersections (mesh.triangles, positions, run);
+  if (after.size () < crossing.size () && after.untested.empty () && countUnused () <= unused) {
+    crossing = std::move (after);
+    return true;
+  }
+  mesh.triangles = std::move (before);
+  mesh.connect (positions.size (), run);
+  return false;
 }
 } // namespace
 
@@ -79,8 +106,16 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
       if (changes > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
-    remake (WIDEST);
+    finish.remade.is_noise = settings.is_noise;
+    if (!settings.is_noise)
+      remake (WIDEST);
     const bool is_noise = finish.remade.is_noise;
+    const auto givesUp = [&] {
+      finish.gave_up = settings.gives_up && settings.gives_up (mesh, *finish.crossing);
+      return finish.gave_up;
+    };
+    if (is_noise && givesUp ())
+      return finish;
     if (!is_noise)
       finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy,
                                    settings.limits.remaking.necks, run);
@@ -96,6 +131,13 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
         remake (WIDEST_AGAIN);
       if (!settings.are_points_added)
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
+      if (!is_noise && givesUp ())
+        return finish;
+      while (settings.open_boundary &&
+             openCrossings (mesh, positions, geometry.neighbors, settings.limits.splits,
+                            *finish.crossing, run))
+        if (!is_noise) // it would take as long as the first time
+          repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
     }
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);

@@ -62,6 +62,7 @@ public:
         is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
         mover_ (mesh, positions, neighbors, cost, limits.largest_fan, limits.places, run),
         most_tests_ (
+            (repair == Repair::AT_THE_END ? 3 : 1) *
             std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),
         changed_in_ (mesh.triangles.size (), 1), tried_in_ (mesh.triangle_of.size (), 0)
   {

@@ -16,9 +16,10 @@ class HoleFiller
 {
 public:
   HoleFiller (const TriangleMesh& mesh, const Positions& positions, const TriangleCost& cost,
-              const HoleFillingLimits& limits, const RunContext& run)
+              const HoleFillingLimits& limits, const RunContext& run,
+              const std::function<bool (const Triangle&)>& fits)
       : mesh_ (mesh), positions_ (positions), cost_ (cost), limits_ (limits), run_ (run),
-        filling_ (run)
+        fits_ (fits), filling_ (run)
   {
   }
 
@@ -40,7 +41,10 @@ public:
     if (!cutEars (polygon, triangles, ears, allowed))
       return false;
     const std::vector<Triangle> rest = filling_.fill (
-        polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); }, allowed);
+        polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); }, allowed,
+        [this] (Index p, Index q, Index r) {
+          return fits_ ({p, q, r});
+        });
     if (rest.empty ())
       return false;
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
@@ -90,7 +94,7 @@ private:
       const Index i = queue.begin ()->second;
       queue.erase (queue.begin ());
       const Index a = before[i], b = after[i];
-      if (!allowed (polygon[a], polygon[b])) {
+      if (!allowed (polygon[a], polygon[b]) || !fits_ ({polygon[a], polygon[i], polygon[b]})) {
         queued[i] = -1.0; // not in the queue until an adjacent corner is cut off
         continue;
       }
@@ -118,6 +122,7 @@ private:
   const TriangleCost& cost_;
   HoleFillingLimits limits_;
   RunContext run_;
+  const std::function<bool (const Triangle&)>& fits_;
   double area_cost_ = 0.0; // per unit of doubled area, for the current loop
   PolygonFilling filling_;
   std::vector<Triangle> filled_;
@@ -128,9 +133,10 @@ private:
 
 std::size_t
 fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-           const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run)
+           const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run,
+           const std::function<bool (const Triangle&)>& fits)
 {
-  HoleFiller filler (mesh, positions, cost, limits, run);
+  HoleFiller filler (mesh, positions, cost, limits, run, fits);
   std::size_t filled = 0, done = 0;
   ProgressLoop progress (run, loops.size ());
   for (BoundaryLoop& loop : loops) {

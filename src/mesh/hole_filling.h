@@ -21,9 +21,11 @@ public:
   /// \param polygon corners, anti-clockwise
   /// \param cost    (p, q, r): of a triangle, 0 or more
   /// \param allowed (p, q): whether an edge may join two corners that are not adjacent
+  /// \param fits    (p, q, r): whether a triangle is allowed; asked only for those that would be best
   /// \return m - 2 triangles, anti-clockwise; empty if m < 3 or no triangulation is allowed
-  template <typename Cost, typename Allowed>
-  std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)
+  template <typename Cost, typename Allowed, typename Fits>
+  std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed,
+                              Fits&& fits)
   {
     const std::size_t m = polygon.size ();
     best_.assign (m * m, {0.0, 0});
@@ -41,7 +43,7 @@ public:
           if (before >= choice.cost)
             continue;
           const double sum = before + cost (polygon[i], polygon[apex], polygon[j]);
-          if (sum < choice.cost)
+          if (sum < choice.cost && fits (polygon[i], polygon[apex], polygon[j]))
             choice = {sum, apex};
         }
       }
@@ -49,6 +51,12 @@ public:
     if (m >= 3 && std::isfinite (best_[m - 1].cost))
       collect (polygon, 0, m - 1, triangles);
     return triangles;
+  }
+
+  template <typename Cost, typename Allowed>
+  std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)
+  {
+    return fill (polygon, cost, allowed, [] (Index, Index, Index) { return true; });
   }
 
 private:
@@ -89,13 +97,17 @@ struct HoleFillingLimits
 /// Fills every loop that is not kept open by triangles of least total cost between its points (see
 /// PolygonFilling). A loop longer than HoleFillingLimits::largest_polygon is first shortened by
 /// repeatedly cutting off the ear of least cost. Edges of the mesh are not used twice. A loop is kept
-/// open if this would be needed, or if it goes round a single triangle. O(m^3) for a loop of m points
+/// open if this would be needed, if it goes round a single triangle, or if there are no triangles that
+/// fit. O(m^3) for a loop of m points
 /// up to that limit, O(m log m) beyond.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
+/// \param fits  whether a triangle may be in a filling
 /// \return number of loops filled
 /// \throws std::logic_error if the loops do not belong to the mesh
 std::size_t
-fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-           const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run);
+fillHoles (
+    TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
+    const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run,
+    const std::function<bool (const Triangle&)>& fits = [] (const Triangle&) { return true; });
 
 } // namespace pcl::floater

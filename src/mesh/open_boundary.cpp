@@ -109,6 +109,27 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
   return count;
 }
 
+Flags
+chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPair>& pairs)
+{
+  BoundaryPeel peel (mesh);
+  bool has_any = false;
+  for (const CrossingPair& pair : pairs)
+    for (const Index t : {pair.first, pair.second}) {
+      if (peel.isTaken (pair.first) || peel.isTaken (pair.second))
+        break;
+      std::vector<MeshEdge> open;
+      for (std::uint8_t side = 0; side < 3; ++side)
+        if (peel.isBoundary ({t, side}))
+          open.push_back ({t, side});
+      if (open.size () == 2 || (open.size () == 1 && peel.mayTake (open.front ()))) {
+        peel.take (open.front ());
+        has_any = true;
+      }
+    }
+  return has_any ? std::move (peel).takenTriangles () : Flags ();
+}
+
 std::size_t
 openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
              const RunContext& run)

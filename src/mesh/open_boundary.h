@@ -3,6 +3,7 @@
 // Folds and notches of the boundary, opened.
 #pragma once
 
+#include "mesh/self_intersections.h"
 #include "mesh/triangle_mesh.h"
 
 namespace pcl::floater {
@@ -66,6 +67,13 @@ private:
 /// \return number of triangles removed
 std::size_t
 openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run);
+
+/// Chooses a triangle of each crossing pair that has one at the boundary, and may do without it: one
+/// that openBoundaryFolds () might remove, or one with two boundary edges. The point between these loses
+/// its last triangle; it has to join the mesh elsewhere. O(n).
+/// \return of each triangle: 1 if it is chosen; empty if none is
+Flags
+chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPair>& pairs);
 
 /// At the boundary, the points alone do not determine whether the triangle in a notch belongs to
 /// the surface. If it does, its angles are like those of others; if it only fills the notch, the

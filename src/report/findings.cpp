@@ -80,7 +80,7 @@ constexpr Sentence SENTENCES[] = {
     {FindingId::DEEP_HOLES, "deep_holes", Severity::DOUBT,
      "{0:hole stays|holes stay} open though the sampling around looks as if points were missing "
      "there, {0?of a width of|the widest of} {n1} ({n2} local spacings) around {p0}: triangles "
-     "across would be a lid; the hole policy decides what is closed"},
+     "across would be a lid, or cross other sheets; the hole policy decides what is closed"},
     {FindingId::UNUSED_POINTS, "unused_points", Severity::FLAW,
      "{0:point is|points are} in no triangle, {p0}{0?: it does| among them: they do} not connect "
      "to the rest of the surface"},

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangulation of polygons at least cost, and the filling of holes by it; what is taken out at the boundary: folds
+// Triangulation of polygons at least cost, and the filling of holes by it, also between other sheets; what is taken out at the boundary: folds
 // beside it, and triangles that only fill its notches.
 #include "mesh/hole_filling.h"
 
+#include "mesh/crossed_fillings.h"
 #include "mesh/folds.h"
 #include "mesh/known_meshes.h"
 #include "mesh/open_boundary.h"
+#include "mesh/trimming.h"
 
 #include <gtest/gtest.h>
 
@@ -132,6 +134,110 @@ TEST (HoleFilling, ALoopThatCannotBeFilledIsKeptOpen)
   EXPECT_EQ (topologyOf (filled ({{0, 1, 4}, {1, 2, 4}, {2, 0, 4}}, 3, true)).euler, 2);
 }
 
+TEST (HoleFilling, OnlyTrianglesThatFitAreTaken)
+{
+  for (const Index around : {12U, 140U}) {
+    Ring ring (around);
+    ring.loops[0].keep_open = true;
+    const Index apex = ring.loops[1].points[5];
+    const TriangleCost cost (ring.positions, ring.normals);
+    TriangleMesh mesh = ring.mesh;
+    EXPECT_EQ (fillHoles (mesh, ring.loops, ring.positions, cost, {}, 1,
+                          [=] (const Triangle& t) { return isCorner (t, apex); }),
+               1U);
+    EXPECT_EQ (mesh.triangles.size (), 3 * around - 2);
+    for (std::size_t t = 2 * around; t < mesh.triangles.size (); ++t)
+      EXPECT_TRUE (isCorner (mesh.triangles[t], apex));
+    EXPECT_EQ (fillHoles (ring.mesh, ring.loops, ring.positions, cost, {}, 1,
+                          [] (const Triangle&) { return false; }),
+               0U);
+    EXPECT_TRUE (ring.loops[1].keep_open);
+  }
+}
+
+// A mesh, one loop of which is filled across another sheet.
+struct Crossed
+{
+  Positions positions;
+  std::vector<Eigen::Vector3f> normals;
+  TriangleMesh mesh;
+  std::vector<BoundaryLoop> loops;
+  std::size_t before = 0;
+  CrossingPairs pairs;
+
+  // \param ring with two loops, the second of which is filled
+  Crossed (const Mesh& ring, const Mesh& sheet)
+  {
+    Mesh both = ring;
+    append (both, sheet);
+    positions = both.positions;
+    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
+    mesh = connected (both);
+    before = mesh.triangles.size ();
+    loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
+                               std::vector<float> (positions.size (), 0.1F), 1);
+    EXPECT_EQ (loops.size (), 3U);
+    loops[0].keep_open = loops[2].keep_open = true;
+    EXPECT_EQ (fillHoles (mesh, loops, positions, TriangleCost (positions, normals), {}, 1), 1U);
+    pairs = findSelfIntersections (mesh.triangles, positions, 1);
+  }
+
+  CrossedFillings fillings () const
+  {
+    return {mesh, before, loops, positions, TriangleCost (positions, normals), 1};
+  }
+};
+
+TEST (CrossedFillings, AHoleWithASheetInItStaysOpenIfItMay)
+{
+  const Mesh window = cells (
+      16, 1, [] (Index x, Index y) { return polar (y == 0 ? 1.2 : 1.0, 2.0 * PI * x / 16); }, true);
+  Crossed crossed (window, cells (8, 8, [] (Index x, Index y) {
+                     return Eigen::Vector3d (x / 8.0 - 0.5, 0.01, y / 8.0 - 0.5);
+                   }));
+  const CrossedFillings fillings = crossed.fillings ();
+  ASSERT_FALSE (fillings.empty ());
+  EXPECT_TRUE (fillings.replaced (crossed.mesh, crossed.pairs, false, crossed.loops).empty ());
+  EXPECT_TRUE (fillings.replaced (crossed.mesh, {}, true, crossed.loops).empty ());
+  EXPECT_FALSE (crossed.loops[1].keep_open);
+  Triangles without = crossed.mesh.triangles;
+  without.resize (crossed.before);
+  EXPECT_EQ (fillings.replaced (crossed.mesh, crossed.pairs, true, crossed.loops), without);
+  EXPECT_TRUE (crossed.loops[1].keep_open);
+  EXPECT_TRUE (crossed.loops[1].judgement.is_too_deep);
+}
+
+// Four points that are high and low in turn may be filled by a ridge or by a valley.
+TEST (CrossedFillings, AnotherFillingLeavesTheSheetAlone)
+{
+  const Mesh saddle = cells (
+      4, 1,
+      [] (Index x, Index y) {
+        Eigen::Vector3d p = polar (y == 0 ? 2.0 : 1.0, 2.0 * PI * x / 4);
+        p.z () = x % 2 == 0 ? 0.5 : -0.5;
+        return p;
+      },
+      true);
+  std::size_t crossing = 0;
+  for (const double side : {1.0, -1.0}) {
+    Crossed crossed (saddle, cells (4, 4, [=] (Index x, Index y) {
+                       return Eigen::Vector3d (0.02 * x - 0.03, 0.02 * x - 0.05,
+                                               side * (0.1 + 0.2 * y));
+                     }));
+    const CrossedFillings fillings = crossed.fillings ();
+    EXPECT_EQ (fillings.empty (), crossed.pairs.empty ());
+    if (fillings.empty ())
+      continue;
+    ++crossing;
+    const Triangles other = fillings.replaced (crossed.mesh, crossed.pairs, true, crossed.loops);
+    EXPECT_EQ (other.size (), crossed.mesh.triangles.size ());
+    EXPECT_TRUE (findSelfIntersections (other, crossed.positions, 1).empty ());
+    EXPECT_FALSE (crossed.loops[1].keep_open);
+    expectConsistent (connected (other, crossed.positions.size ()));
+  }
+  EXPECT_EQ (crossing, 1U);
+}
+
 // Equilateral triangles; rows of points, each shifted by half a triangle against the one before.
 Mesh
 honeycomb (Index columns, Index rows)
@@ -179,6 +285,35 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
     EXPECT_EQ (findFolds (changed, mesh.positions, 1).size (), 0U);
     expectDisc (changed, mesh.positions.size ());
   }
+}
+
+TEST (BoundaryCrossings, TrianglesThatTheBoundaryMayDoWithoutAreChosen)
+{
+  const Mesh floor = cells (8, 8, [] (Index x, Index y) { return Eigen::Vector3d (x, y, 0.0); });
+  // A wall through the middle of the floor; and a sheet above it with a triangle that reaches through it.
+  const Mesh wall =
+      cells (4, 4, [] (Index x, Index y) { return Eigen::Vector3d (2.1 + x, 4.3, y - 1.6); });
+  Mesh with_ear =
+      cells (2, 2, [] (Index x, Index y) { return Eigen::Vector3d (x + 3, y + 3, 1.0); });
+  with_ear.positions.emplace_back (3.4, 3.3, -1.0);
+  with_ear.triangles.push_back ({1, 0, static_cast<Index> (with_ear.positions.size () - 1)});
+  for (const auto& [other, lost] : {std::make_pair (wall, 0), std::make_pair (with_ear, 1)}) {
+    Mesh both = floor;
+    append (both, other);
+    TriangleMesh mesh = connected (both);
+    const CrossingPairs pairs = findSelfIntersections (mesh.triangles, both.positions, 1);
+    ASSERT_FALSE (pairs.empty ());
+    const Flags chosen = chooseCrossingAtBoundary (mesh, pairs);
+    ASSERT_EQ (chosen.size (), mesh.triangles.size ());
+    removeTriangles (mesh, chosen, 1);
+    expectConsistent (mesh);
+    EXPECT_EQ (findComponents (mesh, 1).count, 2U);
+    EXPECT_EQ (boundaryLoops (mesh, 1).size (), 2U);
+    EXPECT_EQ (std::count (mesh.triangle_of.begin (), mesh.triangle_of.end (), NONE), lost);
+    EXPECT_LT (findSelfIntersections (mesh.triangles, both.positions, 1).size (), pairs.size ());
+  }
+  // Triangles inside are not.
+  EXPECT_TRUE (chooseCrossingAtBoundary (connected (torus (9, 7)), {{0, 1}}).empty ());
 }
 
 TEST (BoundaryNotches, FillingsAreTakenOut)

@@ -60,7 +60,7 @@ struct LoopDecision : LoopSummary
   bool stays_open = false;  ///< else it was filled
   double probability = 0.0; ///< that it is a boundary of the surface, 0 to 1
   bool is_too_deep = false; ///< too deep to be filled: the points around it do not determine the
-                            ///< surface inside
+                            ///< surface inside, or triangles across would cross other sheets
 };
 
 /// Why a part of the mesh faces as it does.
@@ -112,7 +112,7 @@ enum class FindingId
   OTHER_DIRECTION,      ///< the same, from far away
   STEP_IN_LOOP,         ///< disc: a long edge in the boundary loop
   ONE_SIDED,            ///< the surface was cut open because it seems one-sided
-  DEEP_HOLES,           ///< holes stay open because a filling would be a lid
+  DEEP_HOLES,           ///< holes stay open because a filling would be a lid, or cross other sheets
   UNUSED_POINTS,        ///< points are in no triangle
   FOLDS,                ///< edges are folded by more than 120 degrees
   CROSSING_TRIANGLES,   ///< pairs of triangles cross each other
