@@ -338,7 +338,7 @@ def test_a_failure_has_a_page_with_the_points(tool):
     data, report = page(tool, "line.xyz", code=RECONSTRUCTION, says="line.xyz")
     assert data["report"]["message"] == report["message"]
     assert (data["mesh"]["shown"], data["mesh"]["dots"][0]["shown"]) == (0, 50)
-    tool.check(OK, GENERATE, "torus torus.ply --points 3000 --noise 1.5")
+    tool.check(OK, GENERATE, "torus torus.ply --points 3000 --noise 2")
     data, report = page(tool, "torus.ply", "--scatter", "keep", "--strict", code=REFUSED, says="--strict")
     assert report["status"] == data["report"]["status"] == "REFUSED" and data["mesh"]["shown"] > 0
 
