@@ -86,9 +86,10 @@ leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
 
 // Finishes a mesh with filled loops. Where making zones anew does not cure what fillings cross, begins
 // again with others.
+// \param crossed these fillings; or nullptr
 void
 finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
-               const SurfaceSettings& settings, const CrossedFillings& crossed,
+               const SurfaceSettings& settings, const CrossedFillings* crossed,
                std::vector<BoundaryLoop>& loops, const RunContext& run)
 {
   FinishSettings finish;
@@ -103,11 +104,15 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
     finish.limits.remaking.disturbance.closes_gaps = false;
   TriangleMesh other;
   Normals normals;
-  if (!crossed.empty ()) {
+  if (crossed != nullptr && !crossed->empty ()) {
     normals = geometry.stars.normals;
     finish.gives_up = [&] (const TriangleMesh& made, const CrossingPairs& pairs) {
-      other.triangles = crossed.replaced (made, pairs, policy == HolePolicy::AUTO, loops);
-      return !other.triangles.empty () && other.connect (points.size (), run);
+      std::vector<BoundaryLoop> changed = loops;
+      other.triangles = crossed->replaced (made, pairs, policy == HolePolicy::AUTO, changed);
+      if (other.triangles.empty () || !other.connect (points.size (), run))
+        return false;
+      loops = std::move (changed);
+      return true;
     };
   }
   surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
@@ -140,10 +145,12 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   const std::size_t before = mesh.triangles.size ();
   fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
-  const CrossedFillings crossed (mesh, before, loops, positions, cost, run);
+  std::optional<CrossedFillings> crossed;
+  if (settings.repair)
+    crossed.emplace (mesh, before, loops, positions, cost, run);
 
   run.beginStage (Stage::FLIPS);
-  finishSurface (surface, points, geometry, settings, crossed, loops, run);
+  finishSurface (surface, points, geometry, settings, crossed ? &*crossed : nullptr, loops, run);
   for (BoundaryLoop& loop : loops) {
     surface.holes_filled += loop.keep_open ? 0 : 1;
     if (isDoubtful (loop.judgement, limits.open_loops))

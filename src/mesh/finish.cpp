@@ -43,6 +43,8 @@ bool
 openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
                const SplitLimits& limits, CrossingPairs& crossing, const RunContext& run)
 {
+  if (crossing.empty () || !crossing.untested.empty ())
+    return false;
   Flags is_chosen = chooseCrossingAtBoundary (mesh, crossing);
   if (is_chosen.empty ())
     return false;
