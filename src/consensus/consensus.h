@@ -95,15 +95,17 @@ Consensus
 buildConsensus (const Positions& positions, std::vector<Candidate> candidates, Normals& normals,
                 const RunContext& run);
 
-/// Keeps the fan of most votes around every point, and removes small islands. An island is an open
-/// component with points of a larger component among its nearest neighbours: it lies in a hole of
+/// Keeps the fan of most votes around every point, and removes islands. An island is an open
+/// component with points of a larger component among its nearest neighbours, if it is small, or if
+/// most of its points are on its boundary and the others lie near its planes: it is in a hole of
 /// that one. The result is an oriented manifold whose boundary loops pass each point at most once.
 /// O(n).
+/// \param normals         of the points
 /// \param neighbors       of each point
-/// \param smallest_island smallest kept number of triangles of an island
+/// \param smallest_island number of triangles of which it is not small
 /// \throws std::logic_error if the result is no manifold, which would be a bug
 TriangleMesh
-manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
-              const RunContext& run);
+manifoldPart (Consensus consensus, const Positions& positions, const Normals& normals,
+              const CsrLists& neighbors, std::size_t smallest_island, const RunContext& run);
 
 } // namespace pcl::floater

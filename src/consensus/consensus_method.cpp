@@ -25,7 +25,8 @@ makeConsensusMesh (Surface& surface, const Positions& positions, LocalGeometry& 
   geometry.stars = {};
   Consensus consensus = buildConsensus (positions, std::move (candidates), smoothed, run);
   surface.orientation_seam = findOrientationSeam (consensus.seam);
-  surface.mesh = manifoldPart (std::move (consensus), geometry.neighbors, SMALLEST_ISLAND, run);
+  surface.mesh = manifoldPart (std::move (consensus), positions, smoothed, geometry.neighbors,
+                               SMALLEST_ISLAND, run);
   for (std::size_t p = 0; p < normals.size (); ++p)
     if (normals[p].dot (smoothed[p]) < 0.0F)
       normals[p] = -normals[p];

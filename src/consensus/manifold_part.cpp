@@ -12,6 +12,11 @@
 
 namespace pcl::floater {
 namespace {
+// Points of a larger component are of the same surface as an island if they lie at most so many times as
+// far from the planes of its points as its own. In noise it is 1.3 to 3.7 times; ribbons of 2 to 7 rows
+// 1.7 to 3.5 spacings above a plate, with steps that scatter by up to 0.35, have 6 and more.
+constexpr double SAME_SURFACE = 4.0;
+
 // The triangles around a point but for the fan of most votes. Of triangles with the same directed edge,
 // that of fewer votes is in no fan: at sharp edges and between sheets, triangles may be disjoint in
 // the tangent plane of one corner and overlap in that of another.
@@ -84,34 +89,52 @@ pruneFans (Consensus& consensus, std::size_t points, const RunContext& run)
 
 // Removes islands from a mesh. Returns whether there are any.
 bool
-removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smallest_island,
-               const RunContext& run)
+removeIslands (TriangleMesh& mesh, const Positions& positions, const Normals& normals,
+               const CsrLists& neighbors, std::size_t smallest_island, const RunContext& run)
 {
+  struct Component
+  {
+    std::size_t triangles = 0, boundary = 0;
+    // To neighbours in this component, and in larger ones: how many, and the sum of their heights.
+    std::array<double, 2> pairs{}, heights{};
+  };
   const MeshComponents components = findComponents (mesh, run);
+  const std::vector<std::size_t> points = countPoints (mesh, components);
   const std::vector<Index>& component = components.of_triangle;
-  std::vector<std::size_t> size (components.count, 0);
-  Flags is_closed (components.count, 1), is_island (components.count, 0);
+  std::vector<Component> all (components.count);
   ProgressLoop progress (run);
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
-    ++size[component[t]];
+    ++all[component[t]].triangles;
     for (Index u : mesh.neighbors[t])
-      if (u == NONE)
-        is_closed[component[t]] = 0;
+      all[component[t]].boundary += u == NONE ? 1 : 0;
   }
+  const auto isSmall = [&] (Index c) { return all[c].triangles < smallest_island; };
   for (Index t = 0; t < component.size (); ++t) {
     progress.next ();
-    const std::size_t triangles = size[component[t]];
-    if (triangles >= smallest_island || is_closed[component[t]] != 0)
+    const Index c = component[t];
+    Component& own = all[c];
+    if (own.boundary == 0 || (!isSmall (c) && 2 * own.boundary <= points[c]))
       continue;
     for (Index p : mesh.triangles[t])
-      for (Index q : neighbors.row (p))
-        if (const Index u = mesh.triangle_of[q]; u != NONE && size[component[u]] > triangles)
-          is_island[component[t]] = 1;
+      for (Index q : neighbors.row (p)) {
+        const Index u = mesh.triangle_of[q];
+        if (u == NONE || (component[u] != c && all[component[u]].triangles <= own.triangles))
+          continue;
+        const std::size_t kind = component[u] == c ? 0 : 1;
+        own.pairs[kind] += 1.0;
+        own.heights[kind] +=
+            std::abs ((positions[q] - positions[p]).dot (normals[p].cast<double> ()));
+      }
   }
+  const auto isIsland = [&] (Index c) {
+    const Component& own = all[c];
+    return own.pairs[1] > 0.0 && (isSmall (c) || own.heights[1] * own.pairs[0] <
+                                                     SAME_SURFACE * own.heights[0] * own.pairs[1]);
+  };
   std::size_t left = 0;
   for (Index t = 0; t < component.size (); ++t)
-    if (is_island[component[t]] == 0)
+    if (!isIsland (component[t]))
       mesh.triangles[left++] = mesh.triangles[t];
   mesh.triangles.resize (left);
   return left < component.size ();
@@ -120,8 +143,8 @@ removeIslands (TriangleMesh& mesh, const CsrLists& neighbors, std::size_t smalle
 } // namespace
 
 TriangleMesh
-manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smallest_island,
-              const RunContext& run)
+manifoldPart (Consensus consensus, const Positions& positions, const Normals& normals,
+              const CsrLists& neighbors, std::size_t smallest_island, const RunContext& run)
 {
   const std::size_t points = neighbors.rows ();
   pruneFans (consensus, points, run);
@@ -129,7 +152,7 @@ manifoldPart (Consensus consensus, const CsrLists& neighbors, std::size_t smalle
   mesh.triangles = std::move (consensus.triangles);
   consensus = {};
   bool is_manifold = mesh.connect (points, run);
-  if (is_manifold && removeIslands (mesh, neighbors, smallest_island, run))
+  if (is_manifold && removeIslands (mesh, positions, normals, neighbors, smallest_island, run))
     is_manifold = mesh.connect (points, run);
   if (!is_manifold)
     throw std::logic_error ("the consensus is no manifold");

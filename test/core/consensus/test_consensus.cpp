@@ -66,7 +66,8 @@ partOf (const std::vector<std::vector<Triangle>>& bodies, const std::vector<std:
       consensus.triangles.push_back (triangle);
       consensus.votes.push_back (votes[i]);
     }
-  return manifoldPart (std::move (consensus), neighbors, smallest, 1);
+  return manifoldPart (std::move (consensus), Positions (neighbors.rows ()),
+                       Normals (neighbors.rows ()), neighbors, smallest, 1);
 }
 
 // Closed fans are walked around: the second one must not be taken for a part of the first.
@@ -104,6 +105,33 @@ TEST (ManifoldPart, HasNoSmallIslandsButBodies)
   neighbors.offsets.resize (12, 1);
   EXPECT_EQ (partOf ({body, sheet}, {3, 3}, neighbors, 9).triangles.size (), 4 + 5);
   EXPECT_EQ (partOf ({island, sheet}, {3, 3}, neighbors, 9).triangles.size (), 5);
+}
+
+// Pieces of leaves, as an airborne scan has them, are of the surface around. Clean ribbons above a plate
+// are not.
+TEST (ManifoldPart, DissolvesRaggedPiecesOfLeavesButKeepsRibbons)
+{
+  const auto componentsOf = [] (unsigned seed, bool has_leaves) {
+    std::mt19937 random (seed);
+    std::normal_distribution<double> offset (0.0, 0.2);
+    std::uniform_real_distribution<double> height (0.0, 6.0);
+    Positions points;
+    for (int x = 0; x < 60; ++x)
+      for (int y = 0; y < 30; ++y) {
+        const auto add = [&] (double z) {
+          points.emplace_back (x + offset (random), y + offset (random), z + 0.1 * offset (random));
+        };
+        add (has_leaves && random () % 2 == 0 ? height (random) : 0.0);
+        if (!has_leaves && y % 10 < 3 && x > 5 && x < 55)
+          add (2.5);
+      }
+    return reconstruct (points, {}).report.check.components;
+  };
+  std::size_t pieces = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed)
+    pieces += componentsOf (seed, true) - 1;
+  EXPECT_LE (pieces, 2);
+  EXPECT_EQ (componentsOf (1, false), 4);
 }
 
 // Crumbs may have several closed fans. Each ends as a manifold, or is refused for a reason of its
