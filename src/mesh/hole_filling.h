@@ -43,9 +43,24 @@ public:
           if (before >= choice.cost)
             continue;
           const double sum = before + cost (polygon[i], polygon[apex], polygon[j]);
-          if (sum < choice.cost && fits (polygon[i], polygon[apex], polygon[j]))
+          if (sum < choice.cost)
             choice = {sum, apex};
         }
+        if (!std::isfinite (choice.cost) || fits (polygon[i], polygon[choice.apex], polygon[j]))
+          continue;
+        next_.clear (); // the cheapest one that fits: to ask takes most of the time
+        for (std::size_t apex = i + 1; apex < j; ++apex)
+          if (const double before = best_[i * m + apex].cost + best_[apex * m + j].cost;
+              apex != choice.apex && std::isfinite (before))
+            next_.push_back ({before + cost (polygon[i], polygon[apex], polygon[j]), apex});
+        std::sort (next_.begin (), next_.end (), [] (const Choice& one, const Choice& other) {
+          return std::tie (one.cost, one.apex) < std::tie (other.cost, other.apex);
+        });
+        const auto found = std::find_if (next_.begin (), next_.end (), [&] (const Choice& one) {
+          return fits (polygon[i], polygon[one.apex], polygon[j]);
+        });
+        choice =
+            found != next_.end () ? *found : Choice{std::numeric_limits<double>::infinity (), 0};
       }
     std::vector<Triangle> triangles;
     if (m >= 3 && std::isfinite (best_[m - 1].cost))
@@ -81,6 +96,7 @@ private:
 
   RunContext run_;
   std::vector<Choice> best_; // [i * m + j]
+  std::vector<Choice> next_;
 };
 
 /// Limits of hole filling.
