@@ -97,9 +97,9 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
 
 /// Keeps the fan of most votes around every point, and removes islands. An island is an open
 /// component with points of a larger component among its nearest neighbours, if it is small, or if
-/// most of its points are on its boundary and the others lie near its planes: it is in a hole of
-/// that one. The result is an oriented manifold whose boundary loops pass each point at most once.
-/// O(n).
+/// most of its points are on its boundary and that component's points are near its planes: it is
+/// in a hole of that one. The result is an oriented manifold whose boundary loops pass each point at
+/// most once. O(n).
 /// \param normals         of the points
 /// \param neighbors       of each point
 /// \param smallest_island number of triangles of which it is not small

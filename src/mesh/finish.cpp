@@ -137,11 +137,9 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
         return finish;
       while (settings.open_boundary &&
              openCrossings (mesh, positions, geometry.neighbors, settings.limits.splits,
-                            *finish.crossing, run)) {
-        if (is_noise)
-          break; // the repair would take as long as before
+                            *finish.crossing, run) &&
+             !is_noise) // in noise, the repair would take as long as before
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
-      }
     }
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);

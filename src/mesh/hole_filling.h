@@ -21,7 +21,8 @@ public:
   /// \param polygon corners, anti-clockwise
   /// \param cost    (p, q, r): of a triangle, 0 or more
   /// \param allowed (p, q): whether an edge may join two corners that are not adjacent
-  /// \param fits    (p, q, r): whether a triangle is allowed; asked only for those that would be best
+  /// \param fits    (p, q, r): whether a triangle is allowed; asked from the cheapest on, since that may
+  ///                take more time than the costs
   /// \return m - 2 triangles, anti-clockwise; empty if m < 3 or no triangulation is allowed
   template <typename Cost, typename Allowed, typename Fits>
   std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed,
@@ -48,7 +49,7 @@ public:
         }
         if (!std::isfinite (choice.cost) || fits (polygon[i], polygon[choice.apex], polygon[j]))
           continue;
-        next_.clear (); // the cheapest one that fits: to ask takes most of the time
+        next_.clear (); // the other triangles at this edge
         for (std::size_t apex = i + 1; apex < j; ++apex)
           if (const double before = best_[i * m + apex].cost + best_[apex * m + j].cost;
               apex != choice.apex && std::isfinite (before))
@@ -114,8 +115,7 @@ struct HoleFillingLimits
 /// PolygonFilling). A loop longer than HoleFillingLimits::largest_polygon is first shortened by
 /// repeatedly cutting off the ear of least cost. Edges of the mesh are not used twice. A loop is kept
 /// open if this would be needed, if it goes round a single triangle, or if there are no triangles that
-/// fit. O(m^3) for a loop of m points
-/// up to that limit, O(m log m) beyond.
+/// fit. O(m^3) for a loop of m points up to that limit, O(m log m) beyond.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
 /// \param fits  whether a triangle may be in a filling
 /// \return number of loops filled

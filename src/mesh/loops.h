@@ -17,8 +17,8 @@ struct LoopJudgement
                          ///< is more likely a boundary than a gap
   double empty_length = 0.0; ///< length of the loop whose points have no neighbour at all beyond
                              ///< it, in the unit of the positions
-  bool is_too_deep = false; ///< to be filled by triangles with support from the sampling, or but by
-                            ///< some that cross other sheets
+  bool is_too_deep = false; ///< the sampling supports no triangles across it, or all fillings cross
+                            ///< other sheets
 
   double probability () const { return 1.0 / (1.0 + std::exp (-log_odds)); }
   bool staysOpen () const { return log_odds > 0.0 || is_too_deep; }
