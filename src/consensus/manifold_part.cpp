@@ -13,9 +13,9 @@
 namespace pcl::floater {
 namespace {
 // Mean distance from the planes of an island's points to points of a larger component, over that to its
-// own points; below, both are one surface. Of pieces of trees in an airborne scan, it is 1.3 to 3.7; of
-// generated ribbons of 2 to 7 rows, 1.7 to 3.5 spacings above a plate, with steps that scatter by up to
-// 0.35, it is 6 or more.
+// own points; below, both are one surface. Of generated ribbons of 2 to 7 rows, 1.7 to 3.5 spacings above
+// a plate, with steps that scatter by up to 0.35, it is 6 or more. Of 12 generated grounds with leaves, 19
+// false pieces are left without this, and 12, 2, 0 and 0 with 2, 3, 4 and 5.
 constexpr double SAME_SURFACE = 4.0;
 
 // The triangles around a point but for the fan of most votes. Of triangles with the same directed edge,
