@@ -5,6 +5,9 @@
 #include "core/order_statistics.h"
 #include "mesh/crossed_fillings.h"
 
+#include <cstdlib>
+#include <cstring>
+
 namespace pcl::floater {
 namespace {
 // Triangles; smaller islands are dropped (see manifoldPart). Chosen by hand; no measurement is recorded.
@@ -85,6 +88,16 @@ leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
   loops.erase (std::remove_if (loops.begin (), loops.end (), isClosed), loops.end ());
 }
 
+// Whether more than a quarter of the points are noisy, as in remakeZones ().
+bool
+isNoise (const Points& points)
+{
+  std::size_t moved = 0;
+  for (std::size_t p = 0; p < points.projected.size (); ++p)
+    moved += points.projected[p] != points.positions[p] ? 1 : 0;
+  return 4 * moved > points.size ();
+}
+
 // Finishes a mesh with filled loops. Where making zones anew does not cure what fillings cross, begins
 // again with others.
 // \param crossed these fillings; or nullptr
@@ -105,7 +118,20 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
     finish.limits.remaking.disturbance.closes_gaps = false;
   TriangleMesh other;
   Normals normals;
-  if (crossed != nullptr && !crossed->empty ()) {
+  if (isNoise (points)) {
+    if (crossed != nullptr && !crossed->empty ()) {
+      CrossingPairs all;
+      if (getenv ("ABL") != nullptr && std::strstr (getenv ("ABL"), "PAIRS"))
+        all = findSelfIntersections (surface.mesh.triangles, points.positions, run);
+      else
+        for (Index t = 0; t < surface.mesh.triangles.size (); ++t)
+          all.push_back ({t, t});
+      other.triangles = crossed->replaced (surface.mesh, all, policy == HolePolicy::AUTO, loops);
+      if (!other.triangles.empty () && other.connect (points.size (), run))
+        surface.mesh = std::move (other);
+    }
+  }
+  else if (crossed != nullptr && !crossed->empty ()) {
     normals = geometry.stars.normals;
     finish.gives_up = [&] (const TriangleMesh& made, const CrossingPairs& pairs) {
       std::vector<BoundaryLoop> changed = loops;

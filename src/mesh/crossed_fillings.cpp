@@ -7,15 +7,13 @@
 
 namespace pcl::floater {
 namespace {
-// Which triangles cross the first ones of a mesh.
+// Which triangles cross those of a mesh that are in a tree. Each loop has a copy of its own.
 class Obstacles
 {
 public:
-  Obstacles (const std::vector<Triangle>& triangles, std::size_t count, const Positions& positions,
-             const RunContext& run)
-      : triangles_ (triangles), positions_ (positions),
-        tree_ (
-            count, [&] (std::size_t t) { return boxOf (triangles[t], positions); }, run)
+  Obstacles (const std::vector<Triangle>& triangles, const Positions& positions,
+             const BoxTree& tree)
+      : triangles_ (triangles), positions_ (positions), tree_ (tree)
   {
   }
 
@@ -49,7 +47,7 @@ private:
 
   const std::vector<Triangle>& triangles_;
   const Positions& positions_;
-  const BoxTree tree_;
+  const BoxTree& tree_;
   std::vector<std::size_t> found_; // the latest first
 };
 
@@ -68,7 +66,9 @@ CrossedFillings::CrossedFillings (const TriangleMesh& mesh, std::size_t before,
 {
   if (mesh.triangles.size () == before)
     return;
-  Obstacles obstacles (mesh.triangles, before, positions, run);
+  const BoxTree tree (
+      before, [&] (std::size_t t) { return boxOf (mesh.triangles[t], positions); }, run);
+  Obstacles obstacles (mesh.triangles, positions, tree);
   loop_of_.assign (positions.size (), NONE);
   for (Index i = 0; i < loops.size (); ++i)
     for (const Index p : loops[i].points)
@@ -103,7 +103,7 @@ CrossedFillings::CrossedFillings (const TriangleMesh& mesh, std::size_t before,
   for (std::size_t i = 0; i < loops.size (); ++i)
     crossed[i].keep_open = is_crossed_[i] == 0;
   fillHoles (around, crossed, positions, cost, {}, run,
-             [&obstacles] (const Triangle& t) { return !obstacles.cross (t, isAny); });
+             [obstacles] (const Triangle& t) mutable { return !obstacles.cross (t, isAny); });
   other_.assign (around.triangles.begin () + static_cast<std::ptrdiff_t> (all),
                  around.triangles.end ());
   for (std::size_t i = 0; i < loops.size (); ++i)

@@ -3,6 +3,7 @@
 #include "mesh/hole_filling.h"
 
 #include "core/geometry.h"
+#include "core/parallel.h"
 
 #include <set>
 #include <stdexcept>
@@ -11,51 +12,47 @@ namespace pcl::floater {
 namespace {
 using Edge = std::pair<Index, Index>; // the smaller point first
 
-// Fills loops one by one. Edges of earlier fillings count as edges of the mesh.
+// Fills one loop.
 class HoleFiller
 {
 public:
   HoleFiller (const TriangleMesh& mesh, const Positions& positions, const TriangleCost& cost,
               const HoleFillingLimits& limits, const RunContext& run,
-              const std::function<bool (const Triangle&)>& fits)
+              std::function<bool (const Triangle&)> fits)
       : mesh_ (mesh), positions_ (positions), cost_ (cost), limits_ (limits), run_ (run),
-        fits_ (fits), filling_ (run)
+        fits_ (std::move (fits))
   {
   }
 
-  bool fill (const BoundaryLoop& loop)
+  // \param taken edges of other fillings
+  // \return empty if there is no filling
+  std::vector<Triangle> fill (const BoundaryLoop& loop, const std::set<Edge>& taken)
   {
     // Around a component of one triangle, the only filling is that triangle, reversed.
     constexpr std::array<Index, 3> ALONE{NONE, NONE, NONE};
     if (mesh_.neighbors[mesh_.triangle_of[loop.points.front ()]] == ALONE)
-      return false;
+      return {};
     std::vector<Index> polygon (loop.points.rbegin (), loop.points.rend ());
     const double step = loop.length / static_cast<double> (loop.points.size ());
     area_cost_ = limits_.area_cost / (step * step);
     std::vector<Triangle> triangles;
     std::set<Edge> ears; // edges that cut off an ear of this loop
     const auto allowed = [&] (Index p, Index q) {
-      return !mesh_.hasEdge (p, q) && new_edges_.count (std::minmax (p, q)) == 0 &&
+      return !mesh_.hasEdge (p, q) && taken.count (std::minmax (p, q)) == 0 &&
              ears.count (std::minmax (p, q)) == 0;
     };
     if (!cutEars (polygon, triangles, ears, allowed))
-      return false;
-    const std::vector<Triangle> rest = filling_.fill (
+      return {};
+    const std::vector<Triangle> rest = PolygonFilling (run_).fill (
         polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); }, allowed,
         [this] (Index p, Index q, Index r) {
           return fits_ ({p, q, r});
         });
     if (rest.empty ())
-      return false;
+      return {};
     triangles.insert (triangles.end (), rest.begin (), rest.end ());
-    for (const Triangle& t : triangles)
-      for (std::size_t i = 0; i < 3; ++i)
-        new_edges_.insert (std::minmax (t[i], t[(i + 1) % 3]));
-    filled_.insert (filled_.end (), triangles.begin (), triangles.end ());
-    return true;
+    return triangles;
   }
-
-  const std::vector<Triangle>& triangles () const { return filled_; }
 
 private:
   double fillCost (Index p, Index q, Index r) const
@@ -122,12 +119,21 @@ private:
   const TriangleCost& cost_;
   HoleFillingLimits limits_;
   RunContext run_;
-  const std::function<bool (const Triangle&)>& fits_;
-  double area_cost_ = 0.0; // per unit of doubled area, for the current loop
-  PolygonFilling filling_;
-  std::vector<Triangle> filled_;
-  std::set<Edge> new_edges_;
+  std::function<bool (const Triangle&)> fits_;
+  double area_cost_ = 0.0; // per unit of doubled area
 };
+
+// Calls visit for the edges of triangles, until it returns true. Returns whether it has.
+template <typename Visit>
+bool
+anyEdge (const std::vector<Triangle>& triangles, Visit&& visit)
+{
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (visit (Edge (std::minmax (t[i], t[(i + 1) % 3]))))
+        return true;
+  return false;
+}
 
 } // namespace
 
@@ -136,22 +142,35 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions
            const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run,
            const std::function<bool (const Triangle&)>& fits)
 {
-  HoleFiller filler (mesh, positions, cost, limits, run, fits);
-  std::size_t filled = 0, done = 0;
-  ProgressLoop progress (run, loops.size ());
-  for (BoundaryLoop& loop : loops) {
-    progress.reach (done++);
-    if (loop.keep_open)
-      continue;
-    if (filler.fill (loop))
-      ++filled;
-    else
-      loop.keep_open = true;
+  const RunContext within = run.withThreads (1);
+  const auto fill = [&] (const BoundaryLoop& loop, const std::set<Edge>& taken) {
+    return HoleFiller (mesh, positions, cost, limits, within, fits).fill (loop, taken);
+  };
+  std::vector<std::vector<Triangle>> fillings (loops.size ());
+  parallelTasks (run, loops.size (), [&] (std::size_t i) {
+    if (!loops[i].keep_open)
+      fillings[i] = fill (loops[i], {});
+  });
+  // Edges of earlier fillings count as edges of the mesh. They are where loops have common points.
+  std::set<Edge> taken;
+  const auto isTaken = [&] (const Edge& edge) { return taken.count (edge) != 0; };
+  const auto take = [&] (const Edge& edge) {
+    taken.insert (edge);
+    return false;
+  };
+  std::size_t filled = 0, added = 0;
+  for (std::size_t i = 0; i < loops.size (); ++i) {
+    if (anyEdge (fillings[i], isTaken))
+      fillings[i] = fill (loops[i], taken);
+    anyEdge (fillings[i], take);
+    loops[i].keep_open = fillings[i].empty ();
+    filled += fillings[i].empty () ? 0 : 1;
+    added += fillings[i].size ();
   }
   // Reserves exactly: growing would double the memory.
-  mesh.triangles.reserve (mesh.triangles.size () + filler.triangles ().size ());
-  mesh.triangles.insert (mesh.triangles.end (), filler.triangles ().begin (),
-                         filler.triangles ().end ());
+  mesh.triangles.reserve (mesh.triangles.size () + added);
+  for (const std::vector<Triangle>& filling : fillings)
+    mesh.triangles.insert (mesh.triangles.end (), filling.begin (), filling.end ());
   if (filled > 0 && !mesh.connect (positions.size (), run))
     throw std::logic_error ("a hole was filled by triangles that do not fit");
   return filled;

@@ -117,7 +117,7 @@ struct HoleFillingLimits
 /// open if this would be needed, if it goes round a single triangle, or if there are no triangles that
 /// fit. O(m^3) for a loop of m points up to that limit, O(m log m) beyond.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
-/// \param fits  whether a triangle may be in a filling
+/// \param fits  whether a triangle may be in a filling. Each loop has a copy of it
 /// \return number of loops filled
 /// \throws std::logic_error if the loops do not belong to the mesh
 std::size_t

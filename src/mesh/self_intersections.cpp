@@ -96,6 +96,18 @@ sideOf (const Vector3d& direction, double sqr_size, const Vector3d& edge)
   return product > 0.0 ? 1 : -1;
 }
 
+// Whether two triangles with a common first corner certainly share no more, since a plane through it
+// and across their directions has them on its two sides. As in most fans.
+bool
+areOpposite (const Edges& own, const Edges& other)
+{
+  const Vector3d across = own[0] + own[1] - other[0] - other[1];
+  const double sqr_size = 4.0 * (own[0].squaredNorm () + own[1].squaredNorm () +
+                                 other[0].squaredNorm () + other[1].squaredNorm ());
+  return sideOf (across, sqr_size, own[0]) > 0 && sideOf (across, sqr_size, own[1]) > 0 &&
+         sideOf (across, sqr_size, other[0]) < 0 && sideOf (across, sqr_size, other[1]) < 0;
+}
+
 // Whether two triangles with a common first corner, and perhaps the second one, certainly share no
 // more, since the plane of one of them, or one through its edges at the corner and across it, has
 // the other one on one side.
@@ -125,6 +137,8 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
     return false;
   if (corners.common == 1 || corners.common == 2) {
     const Edges own = edgesOf (corners.one, positions), others = edgesOf (corners.other, positions);
+    if (corners.common == 1 && areOpposite (own, others))
+      return false;
     if (isBeside (own, others, corners.common) || isBeside (others, own, corners.common))
       return false;
   }
