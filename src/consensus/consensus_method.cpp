@@ -5,9 +5,6 @@
 #include "core/order_statistics.h"
 #include "mesh/crossed_fillings.h"
 
-#include <cstdlib>
-#include <cstring>
-
 namespace pcl::floater {
 namespace {
 // Triangles; smaller islands are dropped (see manifoldPart). Chosen by hand; no measurement is recorded.
@@ -118,29 +115,31 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
     finish.limits.remaking.disturbance.closes_gaps = false;
   TriangleMesh other;
   Normals normals;
-  if (isNoise (points)) {
-    if (crossed != nullptr && !crossed->empty ()) {
-      CrossingPairs all;
-      if (getenv ("ABL") != nullptr && std::strstr (getenv ("ABL"), "PAIRS"))
-        all = findSelfIntersections (surface.mesh.triangles, points.positions, run);
-      else
-        for (Index t = 0; t < surface.mesh.triangles.size (); ++t)
-          all.push_back ({t, t});
-      other.triangles = crossed->replaced (surface.mesh, all, policy == HolePolicy::AUTO, loops);
-      if (!other.triangles.empty () && other.connect (points.size (), run))
+  // \param is_chosen of each point: loops there
+  const auto replace = [&] (const Flags& is_chosen) {
+    std::vector<BoundaryLoop> changed = loops;
+    other.triangles = crossed->replaced (is_chosen, policy == HolePolicy::AUTO, changed);
+    if (other.triangles.empty () || !other.connect (points.size (), run))
+      return false;
+    loops = std::move (changed);
+    return true;
+  };
+  if (crossed != nullptr && !crossed->empty ()) {
+    if (isNoise (points)) { // mostly no zone is made anew then
+      if (replace (Flags (points.size (), 1)))
         surface.mesh = std::move (other);
     }
-  }
-  else if (crossed != nullptr && !crossed->empty ()) {
-    normals = geometry.stars.normals;
-    finish.gives_up = [&] (const TriangleMesh& made, const CrossingPairs& pairs) {
-      std::vector<BoundaryLoop> changed = loops;
-      other.triangles = crossed->replaced (made, pairs, policy == HolePolicy::AUTO, changed);
-      if (other.triangles.empty () || !other.connect (points.size (), run))
-        return false;
-      loops = std::move (changed);
-      return true;
-    };
+    else {
+      normals = geometry.stars.normals;
+      finish.gives_up = [&] (const TriangleMesh& made, const CrossingPairs& pairs) {
+        Flags is_crossing (points.size (), 0);
+        for (const CrossingPair& pair : pairs)
+          for (const Index t : {pair.first, pair.second})
+            for (const Index p : made.triangles[t])
+              is_crossing[p] = 1;
+        return replace (is_crossing);
+      };
+    }
   }
   surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
   if (!surface.finish.gave_up)

@@ -111,18 +111,16 @@ CrossedFillings::CrossedFillings (const TriangleMesh& mesh, std::size_t before,
 }
 
 std::vector<Triangle>
-CrossedFillings::replaced (const TriangleMesh& made, const CrossingPairs& crossing,
-                           bool may_stay_open, std::vector<BoundaryLoop>& loops) const
+CrossedFillings::replaced (const Flags& is_chosen, bool may_stay_open,
+                           std::vector<BoundaryLoop>& loops) const
 {
   Flags is_replaced (loops.size (), 0);
-  for (const CrossingPair& pair : crossing)
-    for (const Index t : {pair.first, pair.second})
-      for (const Index p : made.triangles[t])
-        if (const Index i = loop_of_[p]; i != NONE && is_crossed_[i] != 0) {
-          is_replaced[i] = is_clear_[i] != 0 || (may_stay_open && is_pierced_[i] != 0) ? 1 : 0;
-          loops[i].keep_open = loops[i].judgement.is_too_deep =
-              is_replaced[i] != 0 && is_clear_[i] == 0;
-        }
+  for (std::size_t p = 0; p < is_chosen.size (); ++p)
+    if (const Index i = loop_of_[p]; is_chosen[p] != 0 && i != NONE && is_crossed_[i] != 0) {
+      is_replaced[i] = is_clear_[i] != 0 || (may_stay_open && is_pierced_[i] != 0) ? 1 : 0;
+      loops[i].keep_open = loops[i].judgement.is_too_deep =
+          is_replaced[i] != 0 && is_clear_[i] == 0;
+    }
   if (std::find (is_replaced.begin (), is_replaced.end (), 1) == is_replaced.end ())
     return {};
   std::vector<Triangle> triangles = before_;

@@ -26,15 +26,14 @@ public:
   /// Whether no filling crosses the mesh. Other fillings do not count.
   bool empty () const { return before_.empty (); }
 
-  /// Replaces the fillings of loops that crossing pairs still have a corner at. A loop without another
-  /// filling is left open if it may be, and if some of what it crosses is at no loop. (Where two loops are
-  /// linked, each has only the other's surroundings in its way.)
-  /// \param made     what became of the mesh
-  /// \param crossing all its crossing pairs
+  /// Replaces crossed fillings at chosen points. A loop without another filling is left open if it may
+  /// be, and if some of what it crosses is at no loop. (Where two loops are linked, each has only the
+  /// other's surroundings in its way.)
+  /// \param is_chosen of each point, such as a corner of a crossing pair
   /// \param[in,out] loops keep_open and LoopJudgement::is_too_deep are set for those that are left open
   /// \return the mesh before with these fillings; empty if none would be replaced
-  std::vector<Triangle> replaced (const TriangleMesh& made, const CrossingPairs& crossing,
-                                  bool may_stay_open, std::vector<BoundaryLoop>& loops) const;
+  std::vector<Triangle> replaced (const Flags& is_chosen, bool may_stay_open,
+                                  std::vector<BoundaryLoop>& loops) const;
 
 private:
   Index loopOf (const Triangle& t) const { return loop_of_[t[0]]; }

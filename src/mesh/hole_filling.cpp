@@ -10,8 +10,6 @@
 
 namespace pcl::floater {
 namespace {
-using Edge = std::pair<Index, Index>; // the smaller point first
-
 // Fills one loop.
 class HoleFiller
 {
@@ -24,9 +22,8 @@ public:
   {
   }
 
-  // \param taken edges of other fillings
   // \return empty if there is no filling
-  std::vector<Triangle> fill (const BoundaryLoop& loop, const std::set<Edge>& taken)
+  std::vector<Triangle> fill (const BoundaryLoop& loop)
   {
     // Around a component of one triangle, the only filling is that triangle, reversed.
     constexpr std::array<Index, 3> ALONE{NONE, NONE, NONE};
@@ -36,12 +33,8 @@ public:
     const double step = loop.length / static_cast<double> (loop.points.size ());
     area_cost_ = limits_.area_cost / (step * step);
     std::vector<Triangle> triangles;
-    std::set<Edge> ears; // edges that cut off an ear of this loop
-    const auto allowed = [&] (Index p, Index q) {
-      return !mesh_.hasEdge (p, q) && taken.count (std::minmax (p, q)) == 0 &&
-             ears.count (std::minmax (p, q)) == 0;
-    };
-    if (!cutEars (polygon, triangles, ears, allowed))
+    const auto allowed = [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); };
+    if (!cutEars (polygon, triangles, allowed))
       return {};
     const std::vector<Triangle> rest = PolygonFilling (run_).fill (
         polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); }, allowed,
@@ -64,7 +57,7 @@ private:
   // Repeatedly cuts off the ear of least cost until the polygon is small enough. Returns false if
   // too few ears are allowed.
   template <typename Allowed>
-  bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles, std::set<Edge>& ears,
+  bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles,
                 Allowed&& allowed) const
   {
     if (polygon.size () <= limits_.largest_polygon)
@@ -96,7 +89,6 @@ private:
         continue;
       }
       triangles.push_back ({polygon[a], polygon[i], polygon[b]});
-      ears.insert (std::minmax (polygon[a], polygon[b]));
       after[a] = b;
       before[b] = a;
       after[i] = NONE;
@@ -123,18 +115,6 @@ private:
   double area_cost_ = 0.0; // per unit of doubled area
 };
 
-// Calls visit for the edges of triangles, until it returns true. Returns whether it has.
-template <typename Visit>
-bool
-anyEdge (const std::vector<Triangle>& triangles, Visit&& visit)
-{
-  for (const Triangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (visit (Edge (std::minmax (t[i], t[(i + 1) % 3]))))
-        return true;
-  return false;
-}
-
 } // namespace
 
 std::size_t
@@ -142,27 +122,15 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions
            const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run,
            const std::function<bool (const Triangle&)>& fits)
 {
-  const RunContext within = run.withThreads (1);
-  const auto fill = [&] (const BoundaryLoop& loop, const std::set<Edge>& taken) {
-    return HoleFiller (mesh, positions, cost, limits, within, fits).fill (loop, taken);
-  };
+  // A point is on one loop only, so their fillings have no edge in common.
   std::vector<std::vector<Triangle>> fillings (loops.size ());
   parallelTasks (run, loops.size (), [&] (std::size_t i) {
     if (!loops[i].keep_open)
-      fillings[i] = fill (loops[i], {});
+      fillings[i] =
+          HoleFiller (mesh, positions, cost, limits, run.withThreads (1), fits).fill (loops[i]);
   });
-  // Edges of earlier fillings count as edges of the mesh. They are where loops have common points.
-  std::set<Edge> taken;
-  const auto isTaken = [&] (const Edge& edge) { return taken.count (edge) != 0; };
-  const auto take = [&] (const Edge& edge) {
-    taken.insert (edge);
-    return false;
-  };
   std::size_t filled = 0, added = 0;
   for (std::size_t i = 0; i < loops.size (); ++i) {
-    if (anyEdge (fillings[i], isTaken))
-      fillings[i] = fill (loops[i], taken);
-    anyEdge (fillings[i], take);
     loops[i].keep_open = fillings[i].empty ();
     filled += fillings[i].empty () ? 0 : 1;
     added += fillings[i].size ();

@@ -115,7 +115,7 @@ struct HoleFillingLimits
 /// PolygonFilling). A loop longer than HoleFillingLimits::largest_polygon is first shortened by
 /// repeatedly cutting off the ear of least cost. Edges of the mesh are not used twice. A loop is kept
 /// open if this would be needed, if it goes round a single triangle, or if there are no triangles that
-/// fit. O(m^3) for a loop of m points up to that limit, O(m log m) beyond.
+/// fit. O(m^3) for a loop of m points up to that limit, O(m log m) beyond; loops on all threads.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
 /// \param fits  whether a triangle may be in a filling. Each loop has a copy of it
 /// \return number of loops filled

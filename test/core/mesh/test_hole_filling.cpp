@@ -164,6 +164,7 @@ struct Crossed
   std::vector<BoundaryLoop> loops;
   std::size_t before = 0;
   CrossingPairs pairs;
+  Flags is_crossing; // of each point
 
   // \param ring with two loops, the second of which is filled
   Crossed (const Mesh& ring, const Mesh& sheet)
@@ -180,6 +181,11 @@ struct Crossed
     loops[0].keep_open = loops[2].keep_open = true;
     EXPECT_EQ (fillHoles (mesh, loops, positions, TriangleCost (positions, normals), {}, 1), 1U);
     pairs = findSelfIntersections (mesh.triangles, positions, 1);
+    is_crossing.assign (positions.size (), 0);
+    for (const CrossingPair& pair : pairs)
+      for (const Index t : {pair.first, pair.second})
+        for (const Index p : mesh.triangles[t])
+          is_crossing[p] = 1;
   }
 
   CrossedFillings fillings () const
@@ -197,12 +203,13 @@ TEST (CrossedFillings, AHoleWithASheetInItStaysOpenIfItMay)
                    }));
   const CrossedFillings fillings = crossed.fillings ();
   ASSERT_FALSE (fillings.empty ());
-  EXPECT_TRUE (fillings.replaced (crossed.mesh, crossed.pairs, false, crossed.loops).empty ());
-  EXPECT_TRUE (fillings.replaced (crossed.mesh, {}, true, crossed.loops).empty ());
+  EXPECT_TRUE (fillings.replaced (crossed.is_crossing, false, crossed.loops).empty ());
+  const Flags none (crossed.positions.size (), 0);
+  EXPECT_TRUE (fillings.replaced (none, true, crossed.loops).empty ());
   EXPECT_FALSE (crossed.loops[1].keep_open);
   Triangles without = crossed.mesh.triangles;
   without.resize (crossed.before);
-  EXPECT_EQ (fillings.replaced (crossed.mesh, crossed.pairs, true, crossed.loops), without);
+  EXPECT_EQ (fillings.replaced (crossed.is_crossing, true, crossed.loops), without);
   EXPECT_TRUE (crossed.loops[1].keep_open);
   EXPECT_TRUE (crossed.loops[1].judgement.is_too_deep);
 }
@@ -229,7 +236,7 @@ TEST (CrossedFillings, AnotherFillingLeavesTheSheetAlone)
     if (fillings.empty ())
       continue;
     ++crossing;
-    const Triangles other = fillings.replaced (crossed.mesh, crossed.pairs, true, crossed.loops);
+    const Triangles other = fillings.replaced (crossed.is_crossing, true, crossed.loops);
     EXPECT_EQ (other.size (), crossed.mesh.triangles.size ());
     EXPECT_TRUE (findSelfIntersections (other, crossed.positions, 1).empty ());
     EXPECT_FALSE (crossed.loops[1].keep_open);
