@@ -87,7 +87,6 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
 {
   const BoundaryOptions& boundary = options.disc.boundary;
   const Neighborhood kind = options.neighbors.kind;
-  const Solver solver = options.disc.solver.method;
   const bool is_disc = report.topology == Topology::DISC;
   const bool in_balls = isInBalls (kind);
   const auto isOneOf = [use] (std::initializer_list<UsedFor> uses) {
@@ -108,7 +107,7 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
       {use == UsedFor::BALLS && !in_balls, "neighbours are not searched in balls"},
       // A surface uses Delaunay stars of either.
       {!is_disc && (isOneOf ({UsedFor::DISC, UsedFor::LOOP, UsedFor::TWO_SEGMENTS, UsedFor::POLYGON,
-                              UsedFor::ITERATIVE, UsedFor::ILUT}) ||
+                              UsedFor::ITERATIVE}) ||
                     (use == UsedFor::NEIGHBORHOOD && kind == Neighborhood::NEAREST)),
        "the mesh was not made as a disc"},
       {isOneOf ({UsedFor::LOOP, UsedFor::TWO_SEGMENTS}) && !boundary.loop.empty (),
@@ -117,11 +116,8 @@ reasonOf (UsedFor use, const Options& options, const Report& report)
        "only the boundary method two-segments reads it"},
       {use == UsedFor::POLYGON && options.disc.domain.curve != Domain::POLYGON,
        "the domain is no polygon"},
-      {use == UsedFor::ILUT && solver != Solver::BICGSTAB_ILUT,
+      {use == UsedFor::ITERATIVE && options.disc.solver.method != Solver::BICGSTAB_ILUT,
        "only the solver bicgstab-ilut reads it"},
-      {use == UsedFor::ITERATIVE && solver != Solver::BICGSTAB_ILUT &&
-           solver != Solver::GAUSS_SEIDEL,
-       "the solver is direct"},
   };
   const auto first = std::find_if (std::begin (reasons), std::end (reasons),
                                    [] (const auto& reason) { return reason.first; });

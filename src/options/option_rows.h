@@ -51,9 +51,8 @@ constexpr Choices<Weighting, 4> WEIGHTING_CHOICES{
      {"inverse-distance", Weighting::INVERSE_DISTANCE},
      {"shape-preserving", Weighting::SHAPE_PRESERVING},
      {"mean-value", Weighting::MEAN_VALUE}}};
-constexpr Choices<Solver, 3> SOLVER_CHOICES{{{"umfpack", Solver::UMFPACK},
-                                             {"bicgstab-ilut", Solver::BICGSTAB_ILUT},
-                                             {"gauss-seidel", Solver::GAUSS_SEIDEL}}};
+constexpr Choices<Solver, 3> SOLVER_CHOICES{
+    {{"umfpack", Solver::UMFPACK}, {"bicgstab-ilut", Solver::BICGSTAB_ILUT}}};
 constexpr Choices<Ordering, 5> ORDERING_CHOICES{
     {{"automatic", Ordering::AUTOMATIC},
      {"amd", Ordering::AMD},
@@ -100,7 +99,6 @@ enum class UsedFor
   TWO_SEGMENTS,
   POLYGON,
   ITERATIVE, ///< discs with an iterative solver
-  ILUT,
   SCATTER
 };
 
@@ -254,17 +252,17 @@ visitOptions (AnyOptions& options, Visitor&& visit)
   visit (OptionRow{"ordering", SYSTEM, "solver.ordering", UsedFor::DISC, "order of the unknowns"},
          disc.solver.ordering, ORDERING_CHOICES);
   visit (OptionRow{"tolerance", SYSTEM, "solver.tolerance", UsedFor::ITERATIVE,
-                   "iterative solvers: relative residual to reach"},
+                   "bicgstab-ilut: relative residual to reach"},
          disc.solver.tolerance, NumberRange{0, 1, true, true});
   visit (OptionRow{"max_iterations", SYSTEM, "solver.max_iterations", UsedFor::ITERATIVE,
-                   "iterative solvers: iterations after which they give up"},
+                   "bicgstab-ilut: iterations after which it gives up"},
          disc.solver.max_iterations, NumberRange{1, NO_LIMIT});
-  visit (OptionRow{"ilut_fill", SYSTEM, "solver.ilut_fill", UsedFor::ILUT,
+  visit (OptionRow{"ilut_fill", SYSTEM, "solver.ilut_fill", UsedFor::ITERATIVE,
                    "bicgstab-ilut: entries kept in a row of each factor"},
          disc.solver.ilut_fill, NumberRange{1, 10000});
   visit (
       OptionRow{
-          "ilut_drop", SYSTEM, "solver.ilut_drop", UsedFor::ILUT,
+          "ilut_drop", SYSTEM, "solver.ilut_drop", UsedFor::ITERATIVE,
           "bicgstab-ilut: entries of the factors below this fraction of their row are dropped"},
       disc.solver.ilut_drop, NumberRange{0, 1});
 }

@@ -133,7 +133,7 @@ def test_the_method_of_the_report_and_options_without_effect(cloud):
     assert other["options"]["boundary"] == "consensus"
     assert "options have no effect: --scatter, --flips; --method tw385" in str(other["warnings"])
     assert "warning: an option has no effect: solver" in cloud.succeed(
-        "in.pcd out.ply --topology surface --solver gauss-seidel").err
+        "in.pcd out.ply --topology surface --solver bicgstab-ilut").err
 
 
 def share_up(mesh):

@@ -177,26 +177,6 @@ iterate (const LinearSystem& system, Eigen::Index side, const IncompleteFactors&
   return {std::move (solution), iterations};
 }
 
-// Sweeps between two measurements of the residual, each of which costs as much as a sweep.
-constexpr int SWEEPS_BETWEEN_CHECKS = 10;
-
-void
-sweep (const LinearSystem& system, const RunContext& run, Eigen::MatrixX2d& uv)
-{
-  ProgressLoop progress (run);
-  for (Eigen::Index i = 0; i < system.matrix.rows (); ++i) {
-    progress.next ();
-    Eigen::RowVector2d sum = system.rhs.row (i);
-    double diagonal = 0.0;
-    for (SystemMatrix::InnerIterator entry (system.matrix, i); entry; ++entry)
-      if (entry.col () == i)
-        diagonal = entry.value ();
-      else
-        sum -= entry.value () * uv.row (entry.col ());
-    uv.row (i) = sum / diagonal;
-  }
-}
-
 // BiCGSTAB with Eigen's IncompleteLUT: one incomplete factorization, then each coordinate by
 // itself. The residual that BiCGSTAB updates drifts away from the true one. So the true one is
 // measured when it stops, and it starts again on what is left until the tolerance is reached, the
@@ -231,30 +211,6 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
   });
 }
 
-// Sweeps over the rows in their order, in which each unknown becomes the weighted mean of its
-// neighbours. A sweep shrinks the error by a factor of 1 - O(1/n) for n unknowns, so the number of
-// sweeps grows with n.
-void
-solveWithGaussSeidel (const LinearSystem& system, const SolverOptions& options,
-                      const RunContext& run, Solution& solution)
-{
-  solution.uv = Eigen::MatrixX2d::Zero (system.rhs.rows (), 2);
-  std::array<bool, 2> solved{};
-  for (int sweeps = 0; sweeps < options.max_iterations && !(solved[0] && solved[1]);) {
-    const int next = std::min (sweeps + SWEEPS_BETWEEN_CHECKS, options.max_iterations);
-    for (; sweeps < next; ++sweeps)
-      sweep (system, run, solution.uv);
-    for (std::size_t side = 0; side < 2; ++side)
-      if (!solved[side]) {
-        const auto at = static_cast<Eigen::Index> (side);
-        const Residual residual = measureResidual (system, at, solution.uv.col (at));
-        (side == 0 ? solution.iterations_u : solution.iterations_v) =
-            static_cast<std::size_t> (sweeps);
-        solved[side] = residual.rest.norm () <= residual.target (options.tolerance);
-      }
-  }
-}
-
 // Above this number, memory counts: METIS's factors are smaller than AMD's by a quarter to a third,
 // and solving takes as long, or up to 1.6 times as long (four discs of 300,000 points).
 constexpr std::size_t METIS_UNKNOWNS = 100'000;
@@ -279,8 +235,7 @@ conclude (const LinearSystem& system, const SolverOptions& options, Solution& so
     is_finite = is_finite && std::isfinite (norm);
     is_within = is_within && norm <= residual.target (options.tolerance);
   }
-  const bool is_iterative =
-      options.method == Solver::BICGSTAB_ILUT || options.method == Solver::GAUSS_SEIDEL;
+  const bool is_iterative = options.method == Solver::BICGSTAB_ILUT;
   if (!is_iterative && !(solution.reciprocal_condition >= SINGULAR_RECIPROCAL_CONDITION))
     solution.problem =
         notSolved (RunStatus::SINGULAR, "factorization: a pivot consists of rounding errors only");
@@ -289,8 +244,7 @@ conclude (const LinearSystem& system, const SolverOptions& options, Solution& so
   else if (is_iterative && !is_within) {
     std::ostringstream message;
     const std::size_t iterations = std::max (solution.iterations_u, solution.iterations_v);
-    message << (options.method == Solver::BICGSTAB_ILUT ? "BiCGSTAB" : "Gauss-Seidel")
-            << " reached a relative residual of " << solution.relative_residual << " in "
+    message << "BiCGSTAB reached a relative residual of " << solution.relative_residual << " in "
             << iterations << (iterations == 1 ? " iteration" : " iterations") << ", not "
             << options.tolerance;
     solution.problem = notSolved (RunStatus::NOT_CONVERGED, message.str ());
@@ -305,8 +259,6 @@ solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions&
 {
   if (options.method == Solver::BICGSTAB_ILUT)
     solveWithBicgstab (system, options, run, solution);
-  else if (options.method == Solver::GAUSS_SEIDEL)
-    solveWithGaussSeidel (system, options, run, solution);
   else
     solveWithUmfpack (system, ordering, run, solution);
   if (solution.uv.rows () > 0)

@@ -99,7 +99,7 @@ def reconstruct(
     sides: int = 6,
     spacing: Literal["chord-length", "centripetal", "uniform"] = "chord-length",
     weights: Literal["uniform", "inverse-distance", "shape-preserving", "mean-value"] = "mean-value",
-    solver: Literal["umfpack", "bicgstab-ilut", "gauss-seidel"] = "umfpack",
+    solver: Literal["umfpack", "bicgstab-ilut"] = "umfpack",
     ordering: Optional[Literal["automatic", "amd", "metis", "reverse-cuthill-mckee", "natural"]] = None,
     tolerance: float = 1e-15,
     max_iterations: int = 1000,

@@ -96,16 +96,15 @@ enum class Weighting
 /// Solver of the linear system (TW 385, section 4.2).
 enum class Solver
 {
-  UMFPACK,       ///< direct; symmetric strategy
-  BICGSTAB_ILUT, ///< iterative, preconditioned by an incomplete LU factorization
-  GAUSS_SEIDEL   ///< iterative; converges for small clouds only
+  UMFPACK,      ///< direct; symmetric strategy
+  BICGSTAB_ILUT ///< iterative, preconditioned by an incomplete LU factorization
 };
 
 /// Order of the unknowns, of rows and columns alike.
 enum class Ordering
 {
   AUTOMATIC,             ///< UMFPACK: AMD up to 100,000 unknowns, METIS above;
-                         ///< iterative solvers: NATURAL
+                         ///< BICGSTAB_ILUT: NATURAL
   AMD,                   ///< approximate minimum degree
   METIS,                 ///< nested dissection by METIS
   REVERSE_CUTHILL_MCKEE, ///< small bandwidth
@@ -235,8 +234,8 @@ struct SolverOptions
 {
   Solver method = Solver::UMFPACK;         ///< direct or iterative
   Ordering ordering = Ordering::AUTOMATIC; ///< of the unknowns
-  double tolerance = 1e-15;  ///< |b - A u| / |b| at which iterative solvers stop, above 0, below 1
-  int max_iterations = 1000; ///< of an iterative solver for each coordinate, 1 or more
+  double tolerance = 1e-15;  ///< BICGSTAB_ILUT: |b - A u| / |b| at which it stops, above 0, below 1
+  int max_iterations = 1000; ///< BICGSTAB_ILUT: for each coordinate, 1 or more
   int ilut_fill = 15;        ///< BICGSTAB_ILUT: entries kept in a row of L and of U, 1 to 10,000
   double ilut_drop = 1e-2;   ///< BICGSTAB_ILUT: entries below this fraction of their row are
                              ///< dropped, 0 to 1
