@@ -51,7 +51,7 @@ constexpr Choices<Weighting, 4> WEIGHTING_CHOICES{
      {"inverse-distance", Weighting::INVERSE_DISTANCE},
      {"shape-preserving", Weighting::SHAPE_PRESERVING},
      {"mean-value", Weighting::MEAN_VALUE}}};
-constexpr Choices<Solver, 3> SOLVER_CHOICES{
+constexpr Choices<Solver, 2> SOLVER_CHOICES{
     {{"umfpack", Solver::UMFPACK}, {"bicgstab-ilut", Solver::BICGSTAB_ILUT}}};
 constexpr Choices<Ordering, 5> ORDERING_CHOICES{
     {{"automatic", Ordering::AUTOMATIC},
