@@ -127,7 +127,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
   if (crossed != nullptr && !crossed->empty ()) {
     if (isNoise (points)) { // mostly no zone is made anew then
       if (replace (Flags (points.size (), 1)))
-        std::swap (surface.mesh, other);
+        surface.mesh = std::exchange (other, {});
     }
     else {
       normals = geometry.stars.normals;

@@ -32,8 +32,6 @@ offerAround (MeshEdge fold, const TriangleMesh& mesh, BoundaryPeel& peel, Offer&
       continue;
     }
     const MeshEdge beside = mesh.mate (e);
-    if (beside.triangle == NONE) // border of a submesh
-      continue;
     for (const std::uint8_t outer : otherSides (beside)) {
       const MeshEdge first{beside.triangle, outer};
       if (!peel.isBoundary (first) || !peel.mayTake (first))
