@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exact.h"
 
-#include <CGAL/Convex_hull_traits_adapter_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -61,22 +60,15 @@ isAntiClockwise (const Vector2d& a, const Vector2d& b, const Vector2d& c)
   return CGAL::orientation (exactly (a), exactly (b), exactly (c)) == CGAL::LEFT_TURN;
 }
 
-std::vector<std::size_t>
+std::vector<Vector2d>
 convexHull (const std::vector<Vector2d>& points)
 {
   const std::vector<Kernel::Point_2> exact = exactly (points);
-  std::vector<std::size_t> places (points.size ());
-  std::iota (places.begin (), places.end (), std::size_t{0});
-  std::stable_sort (places.begin (), places.end (),
-                    [&exact] (std::size_t a, std::size_t b) { return exact[a] < exact[b]; });
-  places.erase (
-      std::unique (places.begin (), places.end (),
-                   [&exact] (std::size_t a, std::size_t b) { return exact[a] == exact[b]; }),
-      places.end ());
-  std::vector<std::size_t> hull;
-  auto map = CGAL::make_property_map (exact);
-  CGAL::convex_hull_2 (places.begin (), places.end (), std::back_inserter (hull),
-                       CGAL::Convex_hull_traits_adapter_2<Kernel, decltype (map)> (map));
+  std::vector<Kernel::Point_2> corners;
+  CGAL::convex_hull_2 (exact.begin (), exact.end (), std::back_inserter (corners));
+  std::vector<Vector2d> hull;
+  for (const Kernel::Point_2& corner : corners)
+    hull.emplace_back (corner.x (), corner.y ());
   return hull;
 }
 

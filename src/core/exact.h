@@ -11,9 +11,8 @@ namespace pcl::floater {
 bool
 isAntiClockwise (const Vector2d& a, const Vector2d& b, const Vector2d& c);
 
-/// Indices of the points on the convex hull, anti-clockwise from the leftmost one. Of equal points,
-/// the first is used. O(n log n).
-std::vector<std::size_t>
+/// The corners of the convex hull, anti-clockwise from the leftmost one. O(n log n).
+std::vector<Vector2d>
 convexHull (const std::vector<Vector2d>& points);
 
 /// Whether the edges of a closed polygon meet only at common corners. O(n log n).

@@ -252,8 +252,7 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
 Vector2d
 longSideOfBox (const ChartLayout& chart)
 {
-  const std::vector<Vector2d> places = valuesAt (chart.uv, chart.chart.loop);
-  const std::vector<Vector2d> hull = valuesAt (places, convexHull (places));
+  const std::vector<Vector2d> hull = convexHull (valuesAt (chart.uv, chart.chart.loop));
   Vector2d best = Vector2d::UnitX ();
   double least = std::numeric_limits<double>::infinity ();
   for (std::size_t i = 0; i < hull.size (); ++i) {
