@@ -50,6 +50,8 @@ find (const Report& report, FindingId id)
   return found == report.findings.end () ? nullptr : &*found;
 }
 
+constexpr const char* LEAVE_OUT = "leave them out: --scatter drop";
+
 Reason
 noisy (const Statistics& statistics)
 {
@@ -57,6 +59,16 @@ noisy (const Statistics& statistics)
               rounded (statistics.noise_quantile_90) + " local spacings)",
           "thin the cloud with a voxel grid several times as wide as the noise, smooth it "
           "(pcl::MovingLeastSquares), or take a method that smooths, such as Poisson"};
+}
+
+// Whether points on no surface are in the mesh nevertheless.
+bool
+keepsScatter (const Report& report)
+{
+  const Statistics& statistics = report.statistics;
+  const std::size_t left_out = statistics.non_finite_points + statistics.duplicate_points +
+                               statistics.outlier_points + report.scatter.size ();
+  return statistics.working_points + left_out > statistics.selected_points;
 }
 
 // Why triangles cross.
@@ -74,7 +86,7 @@ whyCrossing (const Report& report, double points)
                 : "store the coordinates with more digits"};
   const auto stacked = static_cast<double> (statistics.stacked_points);
   const auto projected = static_cast<double> (statistics.projected_points);
-  const auto scattered = static_cast<double> (report.scatter.size ());
+  const auto scattered = keepsScatter (report) ? static_cast<double> (report.scatter.size ()) : 0.0;
   const double most = std::max ({stacked, projected, scattered, MANY * points});
   if (stacked == most)
     return {"points lie on one another, such as in overlapping scans",
@@ -82,7 +94,7 @@ whyCrossing (const Report& report, double points)
   if (projected == most)
     return noisy (statistics);
   if (scattered == most)
-    return {"points lie on no surface, such as leaves", "leave them out: --scatter drop"};
+    return {"points lie on no surface, such as leaves", LEAVE_OUT};
   return {"sheets of the surface come closer to each other than their points",
           "scan more densely there; --open-crossings cuts such triangles off"};
 }
@@ -147,11 +159,13 @@ judge (const Report& report)
             report.is_view ? "give the place of the sensor, or --viewpoint none"
                            : "look at them (points of Report::unused): the sampling is too thin "
                              "there, or they are no surface"});
-  const double scatter = shareWith (report.scatter.size (), points);
+  const bool is_kept = keepsScatter (report);
+  const double scatter =
+      is_kept ? share (report.scatter.size (), points) : shareWith (report.scatter.size (), points);
   measure (
       scatter, SCATTER,
       {percent (scatter) + " of the points lie on no surface, such as leaves or far background",
-       "cut them out of the cloud, or keep them with --scatter keep"});
+       is_kept ? LEAVE_OUT : "cut them out of the cloud, or keep them with --scatter keep"});
   const double outliers = shareWith (report.outliers.size (), points);
   measure (outliers, OUTLIERS,
            {percent (outliers) + " of the points lie off any surface" +

@@ -259,7 +259,7 @@ Report
 cleanReport ()
 {
   Report report;
-  report.statistics.working_points = 5000;
+  report.statistics.selected_points = report.statistics.working_points = 5000;
   report.statistics.triangles = 10000;
   report.check.largest_area_share = 0.02;
   return report;
@@ -283,6 +283,8 @@ TEST (Verdict, CrossingTrianglesAreExplainedByWhatIsAround)
   expectIn (judge (report).cause, "sheets");
   report.scatter.resize (200);
   expectIn (judge (report).remedy, "--scatter drop");
+  report.statistics.selected_points += 200; // they are left out
+  expectIn (judge (report).cause, "sheets");
   report.statistics.projected_points = 3000;
   report.statistics.noise_quantile_90 = 0.75;
   expectIn (judge (report).cause, "noisy (90 % of them by less than 0.75");
@@ -319,7 +321,11 @@ TEST (Verdict, TheWorstMeasureIsTheCause)
   EXPECT_EQ (judge (report).value, Quality::POOR);
   report = cleanReport ();
   report.scatter.resize (1000);
+  expectIn (judge (report).cause, "20 % of the points lie on no surface");
+  expectIn (judge (report).remedy, "--scatter drop");
+  report.statistics.selected_points += 1000; // they are left out
   expectIn (judge (report).cause, "17 % of the points lie on no surface");
+  expectIn (judge (report).remedy, "--scatter keep");
   report = cleanReport ();
   report.outliers.resize (1000);
   expectIn (judge (report).cause, "17 % of the points lie off any surface");
