@@ -67,6 +67,7 @@ convexHull (const std::vector<Vector2d>& points)
   std::vector<Kernel::Point_2> corners;
   CGAL::convex_hull_2 (exact.begin (), exact.end (), std::back_inserter (corners));
   std::vector<Vector2d> hull;
+  hull.reserve (corners.size ());
   for (const Kernel::Point_2& corner : corners)
     hull.emplace_back (corner.x (), corner.y ());
   return hull;
