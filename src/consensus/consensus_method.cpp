@@ -115,7 +115,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
     finish.limits.remaking.disturbance.closes_gaps = false;
   TriangleMesh other;
   Normals normals;
-  // \param is_chosen of each point: loops there
+  // Makes the other mesh, in which crossed loops at chosen points have other fillings or none.
   const auto replace = [&] (const Flags& is_chosen) {
     std::vector<BoundaryLoop> changed = loops;
     other.triangles = crossed->replaced (is_chosen, policy == HolePolicy::AUTO, changed);
@@ -125,7 +125,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
     return true;
   };
   if (crossed != nullptr && !crossed->empty ()) {
-    if (isNoise (points)) { // mostly no zone is made anew then
+    if (isNoise (points)) { // hardly any zone is made anew, and other fillings would be asked for
       if (replace (Flags (points.size (), 1)))
         surface.mesh = std::exchange (other, {});
     }

@@ -33,11 +33,11 @@ public:
     const double step = loop.length / static_cast<double> (loop.points.size ());
     area_cost_ = limits_.area_cost / (step * step);
     std::vector<Triangle> triangles;
-    const auto allowed = [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); };
-    if (!cutEars (polygon, triangles, allowed))
+    if (!cutEars (polygon, triangles))
       return {};
     const std::vector<Triangle> rest = PolygonFilling (run_).fill (
-        polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); }, allowed,
+        polygon, [this] (Index p, Index q, Index r) { return fillCost (p, q, r); },
+        [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); },
         [this] (Index p, Index q, Index r) {
           return fits_ ({p, q, r});
         });
@@ -56,9 +56,7 @@ private:
 
   // Repeatedly cuts off the ear of least cost until the polygon is small enough. Returns false if
   // too few ears are allowed.
-  template <typename Allowed>
-  bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles,
-                Allowed&& allowed) const
+  bool cutEars (std::vector<Index>& polygon, std::vector<Triangle>& triangles) const
   {
     if (polygon.size () <= limits_.largest_polygon)
       return true;
@@ -84,7 +82,7 @@ private:
       const Index i = queue.begin ()->second;
       queue.erase (queue.begin ());
       const Index a = before[i], b = after[i];
-      if (!allowed (polygon[a], polygon[b]) || !fits_ ({polygon[a], polygon[i], polygon[b]})) {
+      if (mesh_.hasEdge (polygon[a], polygon[b]) || !fits_ ({polygon[a], polygon[i], polygon[b]})) {
         queued[i] = -1.0; // not in the queue until an adjacent corner is cut off
         continue;
       }
@@ -122,7 +120,7 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions
            const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run,
            const std::function<bool (const Triangle&)>& fits)
 {
-  // A point is on one loop only, so their fillings have no edge in common.
+  // A point is on one loop only, so fillings of several loops have no edge in common.
   std::vector<std::vector<Triangle>> fillings (loops.size ());
   parallelTasks (run, loops.size (), [&] (std::size_t i) {
     if (!loops[i].keep_open)

@@ -96,12 +96,13 @@ sideOf (const Vector3d& direction, double sqr_size, const Vector3d& edge)
   return product > 0.0 ? 1 : -1;
 }
 
-// Whether two triangles with a common first corner certainly share no more, since a plane through it
-// and across their directions has them on its two sides. As in most fans.
+// Whether a plane through the common first corner certainly has two triangles on its two sides, so that
+// they share no more: the plane across the difference of their directions. Most pairs in a fan are so.
 bool
 areOpposite (const Edges& own, const Edges& other)
 {
   const Vector3d across = own[0] + own[1] - other[0] - other[1];
+  // At least the square of the sum of the four lengths, which bounds the rounding.
   const double sqr_size = 4.0 * (own[0].squaredNorm () + own[1].squaredNorm () +
                                  other[0].squaredNorm () + other[1].squaredNorm ());
   return sideOf (across, sqr_size, own[0]) > 0 && sideOf (across, sqr_size, own[1]) > 0 &&

@@ -155,7 +155,7 @@ struct ChangeOf
   }
   void operator() (const OptionRow& row, bool& value) { value = value != (row.name == name); }
   template <typename Enum, std::size_t N>
-  void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
+  void operator() (const OptionRow& row, Enum& value, Choices<Enum, N>& choices)
   {
     if (row.name == name)
       value = choices[choices[0].second == value ? 1 : 0].second;

@@ -315,8 +315,8 @@ decodeDiscOptions (ByteSource& bytes, std::size_t points)
   disc.domain.polygon_sides = static_cast<int> (bytes.below (20));
   disc.domain.loop_spacing = decodeEnum (bytes, LoopSpacing::UNIFORM);
   disc.weighting = decodeEnum (bytes, Weighting::MEAN_VALUE);
-  disc.solver.method = SOLVER_CHOICES[bytes.below (SOLVER_CHOICES.size ())].second;
-  disc.solver.ordering = ORDERING_CHOICES[bytes.below (ORDERING_CHOICES.size ())].second;
+  disc.solver.method = SOLVER_CHOICES[bytes.below (std::size (SOLVER_CHOICES))].second;
+  disc.solver.ordering = ORDERING_CHOICES[bytes.below (std::size (ORDERING_CHOICES))].second;
   disc.boundary.cluster_k = static_cast<int> (bytes.below (40));
   disc.boundary.opening_angle = 2.0 * static_cast<double> (bytes.byte ());
   disc.boundary.cluster_tolerance = static_cast<double> (bytes.byte ()) / 250.0;

@@ -108,18 +108,10 @@ CloudParser parsePts;
 using CloudFormat = CloudParser*;
 
 /// The names of formats, which are extensions as well; others are those of text.
-constexpr std::array<std::pair<const char*, CloudFormat>, 12> CLOUD_FORMATS{{{"auto", nullptr},
-                                                                             {"pcd", parsePcd},
-                                                                             {"ply", parsePly},
-                                                                             {"obj", parseObj},
-                                                                             {"stl", parseStl},
-                                                                             {"vtk", parseVtk},
-                                                                             {"vtp", parseVtp},
-                                                                             {"las", parseLas},
-                                                                             {"bin", parseBin},
-                                                                             {"ptx", parsePtx},
-                                                                             {"xyz", parseXyz},
-                                                                             {"pts", parsePts}}};
+constexpr std::pair<const char*, CloudFormat> CLOUD_FORMATS[] = {
+    {"auto", nullptr}, {"pcd", parsePcd}, {"ply", parsePly}, {"obj", parseObj},
+    {"stl", parseStl}, {"vtk", parseVtk}, {"vtp", parseVtp}, {"las", parseLas},
+    {"bin", parseBin}, {"ptx", parsePtx}, {"xyz", parseXyz}, {"pts", parsePts}};
 
 /// The format that the extension of a file tells, in upper or lower case; nullptr if it is unknown.
 inline CloudFormat

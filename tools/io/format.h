@@ -6,7 +6,6 @@
 #include <boost/locale/utf.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -33,8 +32,7 @@ lowerExtension (const std::filesystem::path& path)
 /// The value of the row that has the extension of a file as its name; a default one if none has.
 template <typename Format, std::size_t N>
 Format
-formatOf (const std::filesystem::path& path,
-          const std::array<std::pair<const char*, Format>, N>& formats)
+formatOf (const std::filesystem::path& path, const std::pair<const char*, Format> (&formats)[N])
 {
   for (const auto& [name, format] : formats)
     if (lowerExtension (path) == "." + std::string (name))

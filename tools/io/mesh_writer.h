@@ -25,13 +25,9 @@ MeshWriter writeVtk, writePly, writeObj, writeStl, writeOff, writeGlb;
 using MeshFormat = MeshWriter*;
 
 /// Their names, which are their extensions as well.
-constexpr std::array<std::pair<const char*, MeshFormat>, 7> MESH_FORMATS{{{"auto", nullptr},
-                                                                          {"vtk", writeVtk},
-                                                                          {"ply", writePly},
-                                                                          {"obj", writeObj},
-                                                                          {"stl", writeStl},
-                                                                          {"off", writeOff},
-                                                                          {"glb", writeGlb}}};
+constexpr std::pair<const char*, MeshFormat> MESH_FORMATS[] = {
+    {"auto", nullptr}, {"vtk", writeVtk}, {"ply", writePly}, {"obj", writeObj},
+    {"stl", writeStl}, {"off", writeOff}, {"glb", writeGlb}};
 
 constexpr const char* MESH_EXTENSIONS = ".vtk, .ply, .obj, .stl, .off or .glb";
 

@@ -83,7 +83,7 @@ struct OptionsReader
       value = given[row.name].cast<Value> ();
   }
   template <typename Enum, std::size_t N>
-  void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
+  void operator() (const OptionRow& row, Enum& value, Choices<Enum, N>& choices)
   {
     std::string word;
     (*this) (row, word);

@@ -73,8 +73,8 @@ struct CommandLine
   }
 };
 
-constexpr Choices<Precision, 3> PRECISION_CHOICES{
-    {{"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}}};
+constexpr Choice<Precision> PRECISION_CHOICES[] = {
+    {"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}};
 
 /// Parses the command line. Prints the help or the version if asked for.
 /// \return the exit code if there is nothing else to do

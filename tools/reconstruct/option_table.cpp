@@ -77,7 +77,7 @@ struct TableOptions
     addNumber (app, nameOf (row), value, row.text + (is_plain ? "" : ", " + range.text ()));
   }
   template <typename Enum, std::size_t N>
-  void operator() (const OptionRow& row, Enum& value, const Choices<Enum, N>& choices)
+  void operator() (const OptionRow& row, Enum& value, Choices<Enum, N>& choices)
   {
     addChoice (app, nameOf (row), value, choices, row.text);
   }

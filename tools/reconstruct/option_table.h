@@ -50,7 +50,7 @@ addParsed (CLI::App& app, const std::string& name, const ParseWord& parse, const
 /// An option whose value is one of several words.
 template <typename Enum, std::size_t N>
 CLI::Option*
-addChoice (CLI::App& app, const std::string& name, Enum& value, const Choices<Enum, N>& choices,
+addChoice (CLI::App& app, const std::string& name, Enum& value, Choices<Enum, N>& choices,
            const std::string& description)
 {
   std::vector<std::string> known;

@@ -74,7 +74,7 @@ struct TableWriter
   }
   void operator() (const OptionRow& row, bool value) { add (row, "bool", {true, false}, value); }
   template <typename Enum, std::size_t N>
-  void operator() (const OptionRow& row, Enum value, const Choices<Enum, N>& choices)
+  void operator() (const OptionRow& row, Enum value, Choices<Enum, N>& choices)
   {
     Json words = Json::array ();
     for (const auto& choice : choices)

@@ -235,7 +235,7 @@ struct SolverOptions
   Solver method = Solver::UMFPACK;         ///< direct or iterative
   Ordering ordering = Ordering::AUTOMATIC; ///< of the unknowns
   double tolerance = 1e-15;  ///< BICGSTAB_ILUT: |b - A u| / |b| at which it stops, above 0, below 1
-  int max_iterations = 1000; ///< BICGSTAB_ILUT: for each coordinate, 1 or more
+  int max_iterations = 1000; ///< BICGSTAB_ILUT: at most so many for each coordinate, 1 or more
   int ilut_fill = 15;        ///< BICGSTAB_ILUT: entries kept in a row of L and of U, 1 to 10,000
   double ilut_drop = 1e-2;   ///< BICGSTAB_ILUT: entries below this fraction of their row are
                              ///< dropped, 0 to 1
