@@ -7,9 +7,6 @@
 
 namespace pcl::floater {
 namespace {
-// Triangles; smaller islands are dropped (see manifoldPart). Chosen by hand; no measurement is recorded.
-constexpr std::size_t SMALLEST_ISLAND = 32;
-
 // Makes the manifold part of the consensus, before its holes are filled, and orients the normals like
 // it. O(n + m log m) for m doubtful candidates.
 // \param geometry as of makeSurface ()

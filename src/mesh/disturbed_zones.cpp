@@ -82,20 +82,25 @@ private:
   }
 
   // Whether the boundary of another sheet, or of another piece of this one, is beside a point of
-  // the boundary.
+  // the boundary; on the same sheet only if it is so near that the points show no gap.
   bool isBesideSheet (Index p, double within) const
   {
     const OnLoop& here = on_loop_.at (p);
     const Row around = neighbors_.row (p);
     return std::any_of (around.begin (), around.end (), [&] (Index q) {
       const auto at = on_loop_.find (q);
-      const double distance = (positions_[q] - positions_[p]).norm ();
-      if (at == on_loop_.end () || distance > within * static_cast<double> (spacing_[p]) ||
-          here.normal.dot (at->second.normal) > limits_.same_sheet)
+      if (at == on_loop_.end ())
         return false;
-      const double way = std::abs (at->second.way - here.way);
-      return at->second.loop != here.loop ||
-             std::min (way, lengths_[here.loop] - way) > 2.0 * distance;
+      const OnLoop& there = at->second;
+      const bool is_same = here.normal.dot (there.normal) > limits_.same_sheet;
+      const double distance = (positions_[q] - positions_[p]).norm ();
+      if (distance > (is_same ? limits_.touching : within) * static_cast<double> (spacing_[p]) ||
+          (is_same && mesh_.hasEdge (p, q)))
+        return false;
+      const double way = std::abs (there.way - here.way);
+      const double least = is_same ? static_cast<double> (limits_.long_run) : 2.0;
+      return there.loop != here.loop ||
+             std::min (way, lengths_[here.loop] - way) > least * distance;
     });
   }
 

@@ -95,7 +95,7 @@ private:
           placeOf ({first, first + TRIED_POINTS}, mesh_, positions_, neighbors_, zones_).place;
       for (std::size_t p = 0; p < place.is_free.size (); ++p)
         place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
-      flawed += remakePlace (place, run_).flawed;
+      flawed += flawedPoints (place, run_);
       tried += TRIED_POINTS;
       if ((i + 1) % TRIED_AT_ONCE == 0 &&
           (SURELY_NOISE * flawed > tried || SURELY_NONE * flawed < tried))
@@ -157,11 +157,10 @@ private:
     return zone;
   }
 
-  // Components without a triangle of the frame are no part of the surface, if there is a frame.
+  // Components without a triangle of the frame are no part of the surface; if there is no frame, small
+  // ones beside a larger one.
   static void dropIslands (const Place& place, RemadePlace& made)
   {
-    if (place.frame.empty ())
-      return;
     DisjointSets pieces (place.positions.size ());
     const auto join = [&pieces] (const Triangle& t) {
       pieces.join (t[0], t[1]);
@@ -169,7 +168,14 @@ private:
     };
     std::for_each (made.triangles.begin (), made.triangles.end (), join);
     std::for_each (place.frame.begin (), place.frame.end (), join);
+    std::vector<std::size_t> size (place.positions.size (), 0);
+    for (const Triangle& t : made.triangles)
+      ++size[pieces.find (t[0])];
+    const std::size_t least =
+        std::min (SMALLEST_ISLAND, *std::max_element (size.begin (), size.end ()));
     Flags is_held (place.positions.size (), 0);
+    for (std::size_t p = 0; p < size.size (); ++p)
+      is_held[p] = place.frame.empty () && size[p] >= least ? 1 : 0;
     for (const Triangle& t : place.frame)
       is_held[pieces.find (t[0])] = 1;
     made.triangles.erase (

@@ -27,23 +27,26 @@ public:
   {
     std::size_t count = 0;
     for (Index p = 0; p < is_free_.size (); ++p)
-      count += is_free_[p] != 0 && knownFlawsAt (p) > 0 ? 1 : 0;
+      count += isFlawed (p) ? 1 : 0;
     return count;
   }
 
-  /// Moves single tetrahedra, or pieces around a point: those that cure most, of equal ones those
-  /// that give the surface the facets of least overlap. It ends early where points are on many
+  /// Turns single tetrahedra, or pieces around a point: those that cure most, of equal ones those
+  /// that give the surface the facets of least overlap. Where none cures anything, a chain of them may:
+  /// the first makes new flaws, which the next ones cure. It ends early where points are on many
   /// tetrahedra.
   void mend ()
   {
     most_work_ = work_ + std::max (LEAST_WORK, WORK * is_free_.size ());
-    bool has_changed = true;
-    for (int round = 0; round < ROUNDS && has_changed; ++round) {
-      has_changed = false;
+    const auto mendAll = [this] (bool by_chains) {
+      bool has_changed = false;
       for (Index p = 0; p < is_free_.size () && work_ < most_work_; ++p)
-        if (is_free_[p] != 0 && knownFlawsAt (p) > 0)
-          has_changed = mendAt (p) || has_changed;
-    }
+        if (isFlawed (p))
+          has_changed = (by_chains ? mendByChain (p) : mendAt (p)) || has_changed;
+      return has_changed;
+    };
+    for (int round = 0; round < ROUNDS && (mendAll (false) || mendAll (true)); ++round)
+      ;
   }
 
 private:
@@ -51,6 +54,17 @@ private:
   // Tetrahedra around points that may be looked at, for each point: at some 20 nanoseconds. A point
   // on many tetrahedra would take the cube of their number.
   static constexpr std::size_t WORK = 2000, LEAST_WORK = 2'000'000;
+  static constexpr std::size_t LONGEST_CHAIN =
+      12; // of moves; most that cure something have two to four
+
+  using Move = std::vector<Index>; // tetrahedra that are turned together
+
+  struct Choice
+  {
+    long gain;   // flaws that it cures
+    double cost; // overlap of the facets that the surface gets, less that of those it loses
+    Move move;
+  };
 
   // Pieces of either side around a point, beyond one each; many if there is one side only.
   // \param pieces if not nullptr: the tetrahedra of each piece, where its side has several
@@ -93,51 +107,99 @@ private:
     return flaws_[p];
   }
 
-  // Tries pieces, and single tetrahedra.
-  bool mendAt (Index p)
+  bool isFlawed (Index p) { return is_free_[p] != 0 && knownFlawsAt (p) > 0; }
+
+  // Pieces around a point, and single tetrahedra, the best first; none that the chain has turned.
+  std::vector<Choice> choicesAt (Index p)
   {
-    std::vector<std::vector<Index>> moves;
+    std::vector<Move> moves;
     flawsAt (p, &moves);
     for (const Index t : all_.around.row (p))
       moves.push_back ({t});
-    const std::vector<Index>* best = nullptr;
-    long best_gain = 0;
-    double best_cost = 0.0;
-    for (const std::vector<Index>& move : moves) {
+    std::vector<Choice> choices;
+    for (Move& move : moves) {
       if (work_ >= most_work_)
-        return false;
-      bool is_allowed = true;
-      double cost = 0.0;
-      for (const Index t : move) {
-        is_allowed = is_allowed && !all_.isInfinite (t);
-        for (unsigned k = 0; k < 4; ++k)
-          cost +=
-              is_behind_[all_.neighbors[t][k]] == is_behind_[t] ? overlap_[t][k] : -overlap_[t][k];
-      }
-      if (!is_allowed)
-        continue;
-      const std::vector<Index> points = cornersOf (move);
-      long gain = 0;
-      for (const Index q : points)
-        gain += static_cast<long> (knownFlawsAt (q));
-      turn (move);
-      for (const Index q : points)
-        if (gain >= best_gain)
-          gain -= static_cast<long> (flawsAt (q));
-      turn (move);
-      if (gain > best_gain || (gain == best_gain && best != nullptr && cost < best_cost)) {
-        best = &move;
-        best_gain = gain;
-        best_cost = cost;
-      }
+        return {};
+      if (std::none_of (move.begin (), move.end (), [this] (Index t) { return isFixed (t); }))
+        choices.push_back ({gainOf (move), costOf (move), std::move (move)});
     }
-    if (best == nullptr)
+    std::stable_sort (
+        choices.begin (), choices.end (), [] (const Choice& one, const Choice& other) {
+          return one.gain != other.gain ? one.gain > other.gain : one.cost < other.cost;
+        });
+    return choices;
+  }
+
+  bool isFixed (Index t) const
+  {
+    return all_.isInfinite (t) ||
+           std::any_of (chain_.begin (), chain_.end (), [t] (const Move& move) {
+             return std::find (move.begin (), move.end (), t) != move.end ();
+           });
+  }
+
+  long gainOf (const Move& move)
+  {
+    const std::vector<Index> points = cornersOf (move);
+    long gain = 0;
+    for (const Index q : points)
+      gain += static_cast<long> (knownFlawsAt (q));
+    turn (move);
+    for (const Index q : points)
+      gain -= static_cast<long> (flawsAt (q));
+    turn (move);
+    return gain;
+  }
+
+  double costOf (const Move& move) const
+  {
+    double cost = 0.0;
+    for (const Index t : move)
+      for (unsigned k = 0; k < 4; ++k)
+        cost +=
+            is_behind_[all_.neighbors[t][k]] == is_behind_[t] ? overlap_[t][k] : -overlap_[t][k];
+    return cost;
+  }
+
+  bool mendAt (Index p)
+  {
+    const std::vector<Choice> choices = choicesAt (p);
+    if (choices.empty () || choices.front ().gain <= 0)
       return false;
-    turnForGood (*best);
+    turnForGood (choices.front ().move);
     return true;
   }
 
-  std::vector<Index> cornersOf (const std::vector<Index>& tetrahedra) const
+  // Begins with any move, and goes on with the best one at each flaw that comes of it.
+  bool mendByChain (Index p)
+  {
+    long gain = 0;
+    const auto make = [&] (const Choice& choice) {
+      turnForGood (choice.move);
+      chain_.push_back (choice.move);
+      gain += choice.gain;
+    };
+    for (const Choice& first : choicesAt (p)) {
+      gain = 0;
+      make (first);
+      for (std::size_t link = 0; link < chain_.size () && gain <= 0; ++link)
+        for (const Index q : cornersOf (chain_[link]))
+          while (gain <= 0 && isFlawed (q) && chain_.size () < LONGEST_CHAIN) {
+            const std::vector<Choice> next = choicesAt (q);
+            if (next.empty () || next.front ().gain <= 0)
+              break;
+            make (next.front ());
+          }
+      if (gain <= 0)
+        std::for_each (chain_.begin (), chain_.end (), [this] (const Move& m) { turnForGood (m); });
+      chain_.clear ();
+      if (gain > 0)
+        return true;
+    }
+    return false;
+  }
+
+  std::vector<Index> cornersOf (const Move& tetrahedra) const
   {
     std::vector<Index> points;
     for (const Index t : tetrahedra)
@@ -148,14 +210,14 @@ private:
     return points;
   }
 
-  void turnForGood (const std::vector<Index>& tetrahedra)
+  void turnForGood (const Move& tetrahedra)
   {
     turn (tetrahedra);
     for (const Index p : cornersOf (tetrahedra))
       flaws_[p] = NONE;
   }
 
-  void turn (const std::vector<Index>& tetrahedra)
+  void turn (const Move& tetrahedra)
   {
     for (const Index t : tetrahedra)
       is_behind_[t] ^= 1U;
@@ -165,6 +227,7 @@ private:
   const Flags& is_free_;
   const std::vector<std::array<double, 4>>& overlap_;
   Flags& is_behind_;
+  std::vector<Move> chain_;              // turned one after the other, not yet for good
   std::vector<Index> flaws_;             // of each point: flawsAt (), NONE if not known
   std::vector<Index> piece_;             // scratch of flawsAt ()
   Flags is_reached_;                     // of each tetrahedron: the same

@@ -216,6 +216,10 @@ boundaryPoints (const TriangleMesh& mesh);
 std::vector<std::vector<Index>>
 boundaryLoops (const TriangleMesh& mesh, const RunContext& run);
 
+/// Triangles; a smaller component beside a larger one is no piece of the surface. Chosen by hand; no
+/// measurement is recorded.
+constexpr std::size_t SMALLEST_ISLAND = 32;
+
 /// Components of a mesh. The triangles of a component are connected by edges.
 struct MeshComponents
 {

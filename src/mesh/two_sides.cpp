@@ -137,12 +137,7 @@ public:
     RemadePlace made;
     if (all_.size () == 0)
       return made;
-    measureFacets ();
-    placeFrame ();
-    joinOutside ();
-    placeFacets ();
-    decide ();
-    SideMending mending (all_, place_.is_free, overlap_, is_behind_);
+    SideMending mending = findSides ();
     made.flawed = mending.flawed ();
     const auto free = std::count (place_.is_free.begin (), place_.is_free.end (), 1);
     if (isNoise (made.flawed, static_cast<std::size_t> (free)))
@@ -153,8 +148,20 @@ public:
     return made;
   }
 
+  std::size_t flawed () { return all_.size () == 0 ? 0 : findSides ().flawed (); }
+
 private:
   using Side = SidesOfSpace::Side;
+
+  SideMending findSides ()
+  {
+    measureFacets ();
+    placeFrame ();
+    joinOutside ();
+    placeFacets ();
+    decide ();
+    return {all_, place_.is_free, overlap_, is_behind_};
+  }
 
   struct Facet
   {
@@ -336,6 +343,12 @@ RemadePlace
 remakePlace (const Place& place, const RunContext& run)
 {
   return PlaceInSpace (place, run).make ();
+}
+
+std::size_t
+flawedPoints (const Place& place, const RunContext& run)
+{
+  return PlaceInSpace (place, run).flawed ();
 }
 
 } // namespace pcl::floater

@@ -28,9 +28,10 @@ struct RemadePlace
 {
   std::vector<Triangle> triangles; ///< each with a free corner
   Flags is_turned;                 ///< of each patch: its back is the front of `triangles`
-  std::size_t flawed = 0; ///< free points at which the balls tell no two sides. Noise, if there are
-                          ///< so many (see isNoise); nothing else is set then
-  bool is_right = false;  ///< the new triangles are one fan around each free point
+  std::size_t flawed =
+      0; ///< see flawedPoints (). Noise, if there are so many (see isNoise); nothing
+         ///< else is set then
+  bool is_right = false; ///< the new triangles are one fan around each free point
 };
 
 /// Whether points are noise, by the number of the flawed ones of them. Generated bodies with thin
@@ -55,5 +56,9 @@ isNoise (std::size_t flawed, std::size_t points)
 /// between the sides. O(n log n) in practice; one thread.
 RemadePlace
 remakePlace (const Place& place, const RunContext& run);
+
+/// The number of free points of a place at which the balls tell no two sides.
+std::size_t
+flawedPoints (const Place& place, const RunContext& run);
 
 } // namespace pcl::floater

@@ -183,6 +183,27 @@ lattice (const Eigen::Vector2d& up)
   return made;
 }
 
+/// A blade: two bent sides of 60 rows of points, a step apart, whose edges they share. Those of one side
+/// lie nearly behind those of the other.
+/// \param half  of the points of a row
+/// \param thick in the middle
+inline KnownSurface
+bladeInRows (int half, double thick)
+{
+  constexpr int ROWS = 60;
+  KnownSurface made;
+  for (int x = -1; x <= ROWS; ++x)
+    for (int y = -half; y <= half; ++y) {
+      const bool is_edge = x < 0 || x == ROWS || std::abs (y) == half;
+      const double up = is_edge ? 0.0 : 0.5 * thick * (1.0 - 1.0 * y * y / (half * half));
+      made.points.emplace_back (x, y, up);
+      if (!is_edge)
+        made.points.emplace_back (x + 0.1, y, -up);
+    }
+  made.is_even = false;
+  return sharp (made, 2.0 * (ROWS + 1 + 2 * half));
+}
+
 // ---- sheets that are sampled unevenly; of the smaller spacing is one
 
 /// A bent sheet. Its rows are `apart` steps apart, points in a row about one step, and each row

@@ -271,6 +271,9 @@ cases ()
       const double half = 20.0 * std::tan (half_angle * PI / 180.0);
       return sharp (prism ({{{0, 0}, {20, -half}, {40, 0}, {20, half}}}, 30.0, seed), 66.0);
     });
+  for (const auto& [half, thick] : {std::pair (6, 0.5), {6, 0.8}, {9, 0.5}, {9, 0.8}, {12, 0.8}})
+    add ("blade_in_rows_" + std::to_string (half) + (thick < 0.6 ? "_thin" : ""),
+         [half = half, thick = thick] { return bladeInRows (half, thick); });
   for (const std::uint64_t seed : {1, 2, 3, 10, 14, 201})
     add ("fold_seed_" + std::to_string (seed), [=] { return foldedSheet (seed); });
   for (const std::uint64_t seed : {3, 6, 12, 13, 21, 23})
