@@ -20,12 +20,14 @@ struct DisturbanceLimits
                                 ///< from which on it is a gap. True boundaries had up to 0.15, gaps
                                 ///< at edges of bodies 0.6 and more
   double touching = 1.0;        ///< distance of pieces of boundary that the sampling does not show:
-                                ///< there they are a gap, also if the loop is open elsewhere
+                                ///< there they are a gap, also if the loop is open elsewhere,
+                                ///< and if they belong to one sheet
   bool closes_gaps = true;      ///< false: no boundary loop counts as a gap
   std::size_t small_loop = 5;   ///< points; a loop of no more is no opening
   std::size_t long_run = 32; ///< points of a loop in a row that are no gap and separate two. Along
                              ///< folds of sheets up to 12 in a row were not touching, on their true
-                             ///< boundary 48 and more
+                             ///< boundary 48 and more. On one sheet, pieces of a loop are as
+                             ///< far apart along it, times their distance
 };
 
 /// Free points, whose triangles are to be made anew.

@@ -168,19 +168,19 @@ private:
     };
     std::for_each (made.triangles.begin (), made.triangles.end (), join);
     std::for_each (place.frame.begin (), place.frame.end (), join);
-    std::vector<std::size_t> size (place.positions.size (), 0);
+    constexpr std::size_t HELD = std::numeric_limits<std::size_t>::max (); // by the frame
+    std::vector<std::size_t> size (place.positions.size (), 0);            // triangles of a piece
     for (const Triangle& t : made.triangles)
       ++size[pieces.find (t[0])];
-    const std::size_t least =
-        std::min (SMALLEST_ISLAND, *std::max_element (size.begin (), size.end ()));
-    Flags is_held (place.positions.size (), 0);
-    for (std::size_t p = 0; p < size.size (); ++p)
-      is_held[p] = place.frame.empty () && size[p] >= least ? 1 : 0;
     for (const Triangle& t : place.frame)
-      is_held[pieces.find (t[0])] = 1;
+      size[pieces.find (t[0])] = HELD;
+    const std::size_t least =
+        place.frame.empty ()
+            ? std::min (SMALLEST_ISLAND, *std::max_element (size.begin (), size.end ()))
+            : HELD;
     made.triangles.erase (
         std::remove_if (made.triangles.begin (), made.triangles.end (),
-                        [&] (const Triangle& t) { return is_held[pieces.find (t[0])] == 0; }),
+                        [&] (const Triangle& t) { return size[pieces.find (t[0])] < least; }),
         made.triangles.end ());
   }
 

@@ -56,12 +56,12 @@ private:
   // Tetrahedra around points that may be looked at, for each point: at some 20 nanoseconds. A point
   // on many tetrahedra would take the cube of their number.
   static constexpr std::size_t WORK = 2000, LEAST_WORK = 2'000'000;
-  // Moves; 4, 6 and 12 made the same of 280 noisy bodies and sheets.
+  // Moves; with 12, as many of 280 noisy bodies and sheets were right.
   static constexpr std::size_t LONGEST_CHAIN = 6;
 
   using Move = std::vector<Index>; // tetrahedra that are turned together
 
-  struct Choice
+  struct RatedMove
   {
     long gain;   // flaws that it cures
     double cost; // overlap of the facets that the surface gets, less that of those it loses
@@ -112,24 +112,24 @@ private:
   bool isFlawed (Index p) { return is_free_[p] != 0 && knownFlawsAt (p) > 0; }
 
   // Pieces around a point, and single tetrahedra, the best first; none that the chain has turned.
-  std::vector<Choice> choicesAt (Index p)
+  std::vector<RatedMove> movesAt (Index p)
   {
     std::vector<Move> moves;
     flawsAt (p, &moves);
     for (const Index t : all_.around.row (p))
       moves.push_back ({t});
-    std::vector<Choice> choices;
+    std::vector<RatedMove> rated;
     for (Move& move : moves) {
       if (work_ >= most_work_)
         return {};
       if (std::none_of (move.begin (), move.end (), [this] (Index t) { return isFixed (t); }))
-        choices.push_back ({gainOf (move), costOf (move), std::move (move)});
+        rated.push_back ({gainOf (move), costOf (move), std::move (move)});
     }
     std::stable_sort (
-        choices.begin (), choices.end (), [] (const Choice& one, const Choice& other) {
+        rated.begin (), rated.end (), [] (const RatedMove& one, const RatedMove& other) {
           return one.gain != other.gain ? one.gain > other.gain : one.cost < other.cost;
         });
-    return choices;
+    return rated;
   }
 
   bool isFixed (Index t) const
@@ -167,14 +167,14 @@ private:
   // \return how many flaws it cures
   long mendAt (Index p)
   {
-    const std::vector<Choice> choices = choicesAt (p);
-    return choices.empty () || choices.front ().gain <= 0 ? 0 : make (choices.front ());
+    const std::vector<RatedMove> rated = movesAt (p);
+    return rated.empty () || rated.front ().gain <= 0 ? 0 : make (rated.front ());
   }
 
   // Begins with any move, and goes on with the best one at each flaw that comes of it.
   bool mendByChain (Index p)
   {
-    for (const Choice& first : choicesAt (p)) {
+    for (const RatedMove& first : movesAt (p)) {
       long gain = make (first);
       for (std::size_t link = 0; link < chain_.size () && gain <= 0; ++link)
         for (const Index q : cornersOf (chain_[link]))
@@ -191,11 +191,11 @@ private:
     return false;
   }
 
-  long make (const Choice& choice)
+  long make (const RatedMove& rated)
   {
-    turnForGood (choice.move);
-    chain_.push_back (choice.move);
-    return choice.gain;
+    turnForGood (rated.move);
+    chain_.push_back (rated.move);
+    return rated.gain;
   }
 
   std::vector<Index> cornersOf (const Move& tetrahedra) const
