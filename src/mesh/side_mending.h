@@ -112,7 +112,8 @@ private:
   bool isFlawed (Index p) { return is_free_[p] != 0 && knownFlawsAt (p) > 0; }
 
   // Pieces around a point, and single tetrahedra, the best first; none that the chain has turned.
-  std::vector<RatedMove> movesAt (Index p)
+  // \param least flaws that each of them is to cure
+  std::vector<RatedMove> movesAt (Index p, long least)
   {
     std::vector<Move> moves;
     flawsAt (p, &moves);
@@ -122,8 +123,10 @@ private:
     for (Move& move : moves) {
       if (work_ >= most_work_)
         return {};
-      if (std::none_of (move.begin (), move.end (), [this] (Index t) { return isFixed (t); }))
-        rated.push_back ({gainOf (move), costOf (move), std::move (move)});
+      if (std::any_of (move.begin (), move.end (), [this] (Index t) { return isFixed (t); }))
+        continue;
+      if (const long gain = gainOf (move, least); gain >= least)
+        rated.push_back ({gain, costOf (move), std::move (move)});
     }
     std::stable_sort (
         rated.begin (), rated.end (), [] (const RatedMove& one, const RatedMove& other) {
@@ -140,15 +143,16 @@ private:
            });
   }
 
-  long gainOf (const Move& move)
+  // Exact from `least` on; otherwise any number below.
+  long gainOf (const Move& move, long least)
   {
     const std::vector<Index> points = cornersOf (move);
     long gain = 0;
     for (const Index q : points)
       gain += static_cast<long> (knownFlawsAt (q));
     turn (move);
-    for (const Index q : points)
-      gain -= static_cast<long> (flawsAt (q));
+    for (auto q = points.begin (); q != points.end () && gain >= least; ++q)
+      gain -= static_cast<long> (flawsAt (*q));
     turn (move);
     return gain;
   }
@@ -167,14 +171,14 @@ private:
   // \return how many flaws it cures
   long mendAt (Index p)
   {
-    const std::vector<RatedMove> rated = movesAt (p);
-    return rated.empty () || rated.front ().gain <= 0 ? 0 : make (rated.front ());
+    const std::vector<RatedMove> rated = movesAt (p, 1);
+    return rated.empty () ? 0 : make (rated.front ());
   }
 
   // Begins with any move, and goes on with the best one at each flaw that comes of it.
   bool mendByChain (Index p)
   {
-    for (const RatedMove& first : movesAt (p)) {
+    for (const RatedMove& first : movesAt (p, std::numeric_limits<long>::min ())) {
       long gain = make (first);
       for (std::size_t link = 0; link < chain_.size () && gain <= 0; ++link)
         for (const Index q : cornersOf (chain_[link]))
