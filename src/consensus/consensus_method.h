@@ -14,8 +14,6 @@ namespace pcl::floater {
 /// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {
-  OpenLoopLimits open_loops;
-  HoleWideningLimits hole_widening;
   HoleFillingLimits hole_filling;
   FinishLimits finish;
 };
