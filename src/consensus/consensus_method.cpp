@@ -4,6 +4,7 @@
 
 #include "core/order_statistics.h"
 #include "mesh/crossed_fillings.h"
+#include "mesh/hole_filling.h"
 
 namespace pcl::floater {
 namespace {
@@ -164,7 +165,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, settings.holes, run);
   const TriangleCost cost (positions, geometry.stars.normals, nullptr, limits.finish.cost);
   const std::size_t before = mesh.triangles.size ();
-  fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
+  fillHoles (mesh, loops, positions, cost, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
   std::optional<CrossedFillings> crossed;
   if (settings.repair)

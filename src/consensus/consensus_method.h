@@ -6,7 +6,6 @@
 #include "consensus/consensus.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
-#include "mesh/hole_filling.h"
 #include "mesh/loops.h"
 #include "points/points.h"
 
@@ -14,7 +13,6 @@ namespace pcl::floater {
 /// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {
-  HoleFillingLimits hole_filling;
   FinishLimits finish;
 };
 

@@ -34,7 +34,7 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
       pinholes.back ().points = loop;
       measureLoop (pinholes.back (), positions, spacing);
     }
-  return fillHoles (mesh, pinholes, positions, cost, {}, run);
+  return fillHoles (mesh, pinholes, positions, cost, run);
 }
 
 // Removes triangles at the boundary that cross others. Points that they leave join elsewhere.

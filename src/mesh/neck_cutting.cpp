@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "mesh/hole_filling.h"
 #include "mesh/self_intersections.h"
 #include "mesh/vertex_splits.h"
 
@@ -168,14 +169,8 @@ private:
     for (std::size_t i = 0; i < opening.size (); ++i)
       length += (positions_[opening[i]] - positions_[opening[i > 0 ? i - 1 : opening.size () - 1]])
                     .norm ();
-    const double step = length / static_cast<double> (opening.size ());
     return PolygonFilling (run_).fill (
-        opening,
-        [&] (Index p, Index q, Index r) {
-          return cost_ (p, q, r) +
-                 limits_.area_cost / (step * step) *
-                     areaVector (positions_[p], positions_[q], positions_[r]).norm ();
-        },
+        opening, fillingCost (cost_, positions_, length / static_cast<double> (opening.size ())),
         [this] (Index p, Index q) { return !mesh_.hasEdge (points_[p], points_[q]); });
   }
 

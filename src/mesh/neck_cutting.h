@@ -4,7 +4,6 @@
 #pragma once
 
 #include "local/local_geometry.h"
-#include "mesh/hole_filling.h"
 #include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
@@ -18,7 +17,6 @@ struct NeckLimits
                           ///< false necks of 588 generated clouds left 0.55 to 0.89, those of true
                           ///< ones 1 or more
   CostLimits cost;        ///< of triangles that fill an opening
-  double area_cost = HoleFillingLimits{}.area_cost;
 };
 
 /// Cuts along short loops around necks (see findNeckLoops): takes out the triangles at the points of
