@@ -85,7 +85,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
   finish.is_repairable = !settings.flip_edges ||
                          static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
   if (settings.open_boundary) {
-    openNotches (mesh, positions, settings.limits.notches, run);
+    openNotches (mesh, positions, run);
     if (finish.folds > 0)
       openBoundaryFolds (mesh, positions, run);
   }

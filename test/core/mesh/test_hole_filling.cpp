@@ -265,7 +265,7 @@ TEST (OpenBoundary, FlatAndClosedMeshesStay)
   for (const Mesh& mesh : {sheet (9), honeycomb (8, 7), annulus (12), torus (9, 7), Mesh ()}) {
     TriangleMesh changed = connected (mesh);
     EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 0U);
-    EXPECT_EQ (openNotches (changed, mesh.positions, NotchLimits (), 1), 0U);
+    EXPECT_EQ (openNotches (changed, mesh.positions, 1), 0U);
     EXPECT_EQ (changed.triangles, mesh.triangles);
   }
 }
@@ -334,7 +334,7 @@ TEST (BoundaryNotches, FillingsAreTakenOut)
       filled.triangles.push_back ({last, last - COLUMNS - 1, last + COLUMNS + 1});
   }
   TriangleMesh changed = connected (filled);
-  EXPECT_EQ (openNotches (changed, filled.positions, NotchLimits (), 1), ROWS - 1U);
+  EXPECT_EQ (openNotches (changed, filled.positions, 1), ROWS - 1U);
   EXPECT_EQ (changed.triangles, mesh.triangles);
 }
 
