@@ -108,8 +108,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
   finish.facing = settings.facing;
   finish.limits = settings.limits.finish;
   const HolePolicy policy = settings.holes.policy;
-  if (policy != HolePolicy::AUTO && policy != HolePolicy::CLOSE_ALL)
-    finish.limits.remaking.disturbance.closes_gaps = false;
+  finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
   TriangleMesh other;
   Normals normals;
   // Makes the other mesh, in which crossed loops at chosen points have other fillings or none.
