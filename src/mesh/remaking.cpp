@@ -102,7 +102,7 @@ private:
           placeOf ({first, first + TRIED_POINTS}, mesh_, positions_, neighbors_, zones_).place;
       for (std::size_t p = 0; p < place.is_free.size (); ++p)
         place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
-      flawed += flawedPoints (place, run_);
+      flawed += remakePlace (place, run_, true).flawed;
       tried += TRIED_POINTS;
       if ((i + 1) % TRIED_AT_ONCE == 0 &&
           (SURELY_NOISE * flawed > tried || SURELY_NONE * flawed < tried))
