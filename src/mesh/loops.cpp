@@ -192,11 +192,15 @@ judge (const BoundaryLoop& loop, const LoopEvidence& evidence)
   return judgement;
 }
 
-// The loops by descending key; stable.
-template <typename Key>
+// Likely boundaries first, by descending value; then the others by their empty length; stable.
+template <typename Value>
 std::vector<BoundaryLoop*>
-fromLargest (std::vector<BoundaryLoop>& loops, Key&& key)
+fromLargest (std::vector<BoundaryLoop>& loops, Value&& value)
 {
+  const auto key = [&value] (const BoundaryLoop& loop) {
+    const bool is_likely = loop.judgement.log_odds > 0.0;
+    return std::make_pair (is_likely, is_likely ? value (loop) : loop.judgement.empty_length);
+  };
   std::vector<BoundaryLoop*> order;
   order.reserve (loops.size ());
   for (BoundaryLoop& loop : loops)
@@ -205,14 +209,6 @@ fromLargest (std::vector<BoundaryLoop>& loops, Key&& key)
       order.begin (), order.end (),
       [&key] (const BoundaryLoop* a, const BoundaryLoop* b) { return key (*b) < key (*a); });
   return order;
-}
-
-// Likely boundaries first, by value; then the others by their empty length.
-std::pair<bool, double>
-rank (const LoopJudgement& judgement, double value)
-{
-  return judgement.log_odds > 0.0 ? std::make_pair (true, value)
-                                  : std::make_pair (false, judgement.empty_length);
 }
 
 } // namespace
@@ -346,14 +342,12 @@ chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const
   case HolePolicy::CLOSE_ALL:
     return;
   case HolePolicy::KEEP_LARGEST:
-    for (BoundaryLoop* loop :
-         fromLargest (loops, [] (const BoundaryLoop& l) { return rank (l.judgement, l.length); }))
+    for (BoundaryLoop* loop : fromLargest (loops, [] (const BoundaryLoop& l) { return l.length; }))
       loop->keep_open = std::exchange (has_one[loop->component], std::uint8_t{1}) == 0;
     return;
   case HolePolicy::KEEP_COUNT:
-    for (BoundaryLoop* loop : fromLargest (loops, [] (const BoundaryLoop& l) {
-           return rank (l.judgement, l.judgement.log_odds);
-         }))
+    for (BoundaryLoop* loop :
+         fromLargest (loops, [] (const BoundaryLoop& l) { return l.judgement.log_odds; }))
       loop->keep_open = kept++ < holes.kept_loops;
     return;
   case HolePolicy::BY_SIZE:
