@@ -43,21 +43,16 @@ public:
 
   DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
   {
-    is_wrong_.assign (positions_.size (), 0);
-    bool is_any = false;
-    const auto mark = [&] (Index p) {
-      is_wrong_[p] = 1;
-      is_any = true;
-    };
-    for (Index p = 0; p < positions_.size (); ++p)
-      if (mesh_.triangle_of[p] == NONE)
-        mark (p);
+    for (const Index t : mesh_.triangle_of)
+      is_wrong_.push_back (t == NONE ? 1 : 0);
     for (const CrossingPair& pair : crossing)
       for (const Index t : {pair.first, pair.second})
-        std::for_each (mesh_.triangles[t].begin (), mesh_.triangles[t].end (), mark);
+        for (const Index p : mesh_.triangles[t])
+          is_wrong_[p] = 1;
     readLoops ();
     is_disturbed_ = is_wrong_;
-    if (!markGaps () && !is_any)
+    markGaps ();
+    if (std::find (is_wrong_.begin (), is_wrong_.end (), 1) == is_wrong_.end ())
       return {};
     markDisturbed ();
     markGaps ();
@@ -124,17 +119,13 @@ private:
 
   // Where two sheets end side by side, the loop between them is a gap at an edge of the body. A
   // window in a sheet has only that sheet around it.
-  bool markGaps ()
+  void markGaps ()
   {
-    bool is_any = false;
     if (!closes_gaps_)
-      return false;
+      return;
     for (const std::vector<Index>& loop : loops_)
-      for (const Index p : pointsOfGap (loop)) {
+      for (const Index p : pointsOfGap (loop))
         is_wrong_[p] = is_disturbed_[p] = 1;
-        is_any = true;
-      }
-    return is_any;
   }
 
   // The whole of a loop that is a gap. Of one that is a true boundary elsewhere: where it runs along

@@ -23,9 +23,9 @@ struct DisturbedZones
 };
 
 /// Finds what is wrong: triangles that cross, points without a triangle, and boundary loops that
-/// are gaps between sheets, at least in part. What is disturbed around belongs to it: corners of folded triangles, and
-/// of bent ones that are no Delaunay facets in space; so do `rings` of triangles around. O(1) for a
-/// mesh where nothing is wrong, apart from its boundary; otherwise O(n).
+/// are gaps between sheets, at least in part. What is disturbed around belongs to it: corners of folded
+/// triangles, and of bent ones that are no Delaunay facets in space; so do `rings` of triangles around.
+/// O(n).
 /// \param crossing  all crossing pairs of the mesh
 /// \param neighbors of each point, nearest first
 /// \param spacing   of each point (see localSpacing)
