@@ -4,6 +4,7 @@
 
 #include "core/order_statistics.h"
 #include "mesh/crossed_fillings.h"
+#include "mesh/hole_filling.h"
 
 namespace pcl::floater {
 namespace {
@@ -34,7 +35,7 @@ makeConsensusMesh (Surface& surface, const Positions& positions, LocalGeometry& 
 // judgeLoops ().
 std::vector<BoundaryLoop>
 chooseLoops (TriangleMesh& mesh, const Points& points, const LocalGeometry& geometry,
-             const HoleOptions& holes, const SurfaceLimits& limits, const RunContext& run)
+             const HoleOptions& holes, const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
   const Normals& normals = geometry.stars.normals;
@@ -42,10 +43,9 @@ chooseLoops (TriangleMesh& mesh, const Points& points, const LocalGeometry& geom
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
   if (holes.policy == HolePolicy::AUTO)
-    widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals,
-                limits.open_loops, limits.hole_widening, run);
+    widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals, run);
   else
-    judgeLoops (mesh, loops, positions, geometry.neighbors, normals, limits.open_loops, run);
+    judgeLoops (mesh, loops, positions, geometry.neighbors, normals, run);
   chooseOpenLoops (loops, components.count, holes, 1.0 / points.scale);
   return loops;
 }
@@ -108,8 +108,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
   finish.facing = settings.facing;
   finish.limits = settings.limits.finish;
   const HolePolicy policy = settings.holes.policy;
-  if (policy != HolePolicy::AUTO && policy != HolePolicy::CLOSE_ALL)
-    finish.limits.remaking.disturbance.closes_gaps = false;
+  finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
   TriangleMesh other;
   Normals normals;
   // Makes the other mesh, in which crossed loops at chosen points have other fillings or none.
@@ -162,11 +161,10 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   makeConsensusMesh (surface, positions, geometry, run);
 
   run.beginStage (Stage::HOLES);
-  std::vector<BoundaryLoop> loops =
-      chooseLoops (mesh, points, geometry, settings.holes, limits, run);
+  std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, settings.holes, run);
   const TriangleCost cost (positions, geometry.stars.normals, nullptr, limits.finish.cost);
   const std::size_t before = mesh.triangles.size ();
-  fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
+  fillHoles (mesh, loops, positions, cost, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
   std::optional<CrossedFillings> crossed;
   if (settings.repair)
@@ -176,7 +174,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   finishSurface (surface, points, geometry, settings, crossed ? &*crossed : nullptr, loops, run);
   for (BoundaryLoop& loop : loops) {
     surface.holes_filled += loop.keep_open ? 0 : 1;
-    if (isDoubtful (loop.judgement, limits.open_loops))
+    if (isDoubtful (loop.judgement))
       surface.doubtful_loops.push_back (std::move (loop));
   }
   if (surface.finish.remade.points () > 0)

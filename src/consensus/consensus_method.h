@@ -6,7 +6,6 @@
 #include "consensus/consensus.h"
 #include "local/local_geometry.h"
 #include "mesh/finish.h"
-#include "mesh/hole_filling.h"
 #include "mesh/loops.h"
 #include "points/points.h"
 
@@ -14,9 +13,6 @@ namespace pcl::floater {
 /// The limits of all steps of makeSurface.
 struct SurfaceLimits
 {
-  OpenLoopLimits open_loops;
-  HoleWideningLimits hole_widening;
-  HoleFillingLimits hole_filling;
   FinishLimits finish;
 };
 

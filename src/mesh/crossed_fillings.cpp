@@ -51,11 +51,7 @@ private:
   std::vector<std::size_t> found_; // the latest first
 };
 
-bool
-isAny (const Triangle& /*triangle*/)
-{
-  return true;
-}
+constexpr auto isAny = [] (const Triangle&) { return true; };
 
 } // namespace
 
@@ -102,7 +98,7 @@ CrossedFillings::CrossedFillings (const TriangleMesh& mesh, std::size_t before,
   std::vector<BoundaryLoop> crossed = loops;
   for (std::size_t i = 0; i < loops.size (); ++i)
     crossed[i].keep_open = is_crossed_[i] == 0;
-  fillHoles (around, crossed, positions, cost, {}, run,
+  fillHoles (around, crossed, positions, cost, run,
              [obstacles] (const Triangle& t) mutable { return !obstacles.cross (t, isAny); });
   other_.assign (around.triangles.begin () + static_cast<std::ptrdiff_t> (all),
                  around.triangles.end ());

@@ -12,34 +12,47 @@
 
 namespace pcl::floater {
 namespace {
+// Chosen on generated bodies with sharp edges, thin walls and contacts, and on clouds with true openings.
+// In local spacings: the distance up to which two pieces of boundary are side by side; and that of
+// pieces which the sampling does not show: there they are a gap, also if the loop is open elsewhere,
+// and if they belong to one sheet.
+constexpr double BESIDE = 2.5, TOUCHING = 1.0;
+
+// Cosine between the normals of two pieces, 30 degrees; below, they belong to two sheets.
+constexpr double SAME_SHEET = 0.87;
+
+// Share of the points of a loop that are beside another sheet, from which on it is a gap. True boundaries
+// had up to 0.15, gaps at edges of bodies 0.6 and more.
+constexpr double GAP_SHARE = 1.0 / 3.0;
+
+// Points of a loop in a row that are no gap and separate two. Along folds of sheets up to 12 in a row were
+// not touching, on their true boundary 48 and more. On one sheet, pieces of a loop are as far apart along
+// it, times their distance.
+constexpr std::size_t LONG_RUN = 32;
+
 class ZoneFinder
 {
 public:
   ZoneFinder (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-              const std::vector<float>& spacing, bool whole_loops, const DisturbanceLimits& limits,
+              const std::vector<float>& spacing, bool whole_loops, bool closes_gaps,
               const RunContext& run)
       : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
-        whole_loops_ (whole_loops), limits_ (limits), run_ (run)
+        whole_loops_ (whole_loops), closes_gaps_ (closes_gaps), run_ (run)
   {
   }
 
   DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
   {
-    is_wrong_.assign (positions_.size (), 0);
-    bool is_any = false;
-    const auto mark = [&] (Index p) {
-      is_wrong_[p] = 1;
-      is_any = true;
-    };
-    for (Index p = 0; p < positions_.size (); ++p)
-      if (mesh_.triangle_of[p] == NONE)
-        mark (p);
+    for (const Index t : mesh_.triangle_of)
+      is_wrong_.push_back (t == NONE ? 1 : 0);
     for (const CrossingPair& pair : crossing)
       for (const Index t : {pair.first, pair.second})
-        std::for_each (mesh_.triangles[t].begin (), mesh_.triangles[t].end (), mark);
+        for (const Index p : mesh_.triangles[t])
+          is_wrong_[p] = 1;
     readLoops ();
     is_disturbed_ = is_wrong_;
-    if (!markGaps () && !is_any)
+    markGaps ();
+    if (std::find (is_wrong_.begin (), is_wrong_.end (), 1) == is_wrong_.end ())
       return {};
     markDisturbed ();
     markGaps ();
@@ -92,13 +105,13 @@ private:
       if (at == on_loop_.end ())
         return false;
       const OnLoop& there = at->second;
-      const bool is_same = here.normal.dot (there.normal) > limits_.same_sheet;
+      const bool is_same = here.normal.dot (there.normal) > SAME_SHEET;
       const double distance = (positions_[q] - positions_[p]).norm ();
-      if (distance > (is_same ? limits_.touching : within) * static_cast<double> (spacing_[p]) ||
+      if (distance > (is_same ? TOUCHING : within) * static_cast<double> (spacing_[p]) ||
           (is_same && mesh_.hasEdge (p, q)))
         return false;
       const double way = std::abs (there.way - here.way);
-      const double least = is_same ? static_cast<double> (limits_.long_run) : 2.0;
+      const double least = is_same ? static_cast<double> (LONG_RUN) : 2.0;
       return there.loop != here.loop ||
              std::min (way, lengths_[here.loop] - way) > least * distance;
     });
@@ -106,34 +119,29 @@ private:
 
   // Where two sheets end side by side, the loop between them is a gap at an edge of the body. A
   // window in a sheet has only that sheet around it.
-  bool markGaps ()
+  void markGaps ()
   {
-    bool is_any = false;
-    if (!limits_.closes_gaps)
-      return false;
+    if (!closes_gaps_)
+      return;
     for (const std::vector<Index>& loop : loops_)
-      for (const Index p : pointsOfGap (loop)) {
+      for (const Index p : pointsOfGap (loop))
         is_wrong_[p] = is_disturbed_[p] = 1;
-        is_any = true;
-      }
-    return is_any;
   }
 
   // The whole of a loop that is a gap. Of one that is a true boundary elsewhere: where it runs along
   // a fold, so near to the other sheet that the points would not show a gap.
   std::vector<Index> pointsOfGap (const std::vector<Index>& loop)
   {
-    if (loop.size () <= limits_.small_loop)
+    if (loop.size () <= SMALL_LOOP)
       return loop;
-    const std::vector<Index> beside = besideSheet (loop, limits_.beside);
-    if (static_cast<double> (beside.size ()) >=
-        limits_.gap_share * static_cast<double> (loop.size ())) {
+    const std::vector<Index> beside = besideSheet (loop, BESIDE);
+    if (static_cast<double> (beside.size ()) >= GAP_SHARE * static_cast<double> (loop.size ())) {
       const bool all_along = stretches (loop, beside).size () == loop.size ();
       zones_.may_be_parts = zones_.may_be_parts || !all_along;
       if (all_along || whole_loops_)
         return loop;
     }
-    return stretches (loop, besideSheet (loop, limits_.touching));
+    return stretches (loop, besideSheet (loop, TOUCHING));
   }
 
   // Places in the loop, ascending.
@@ -146,8 +154,8 @@ private:
     return places;
   }
 
-  // Stretches of a loop with more than `small_loop` of these places, with gaps of no more than
-  // `long_run` between them.
+  // Stretches of a loop with more than SMALL_LOOP of these places, with gaps of no more than
+  // LONG_RUN between them.
   std::vector<Index> stretches (const std::vector<Index>& loop,
                                 const std::vector<Index>& places) const
   {
@@ -155,8 +163,8 @@ private:
     const auto way = [&] (std::size_t from, std::size_t to) {
       return (places[to % n] + loop.size () - places[from % n]) % loop.size ();
     };
-    const auto isLast = [&] (std::size_t i) { return way (i, i + 1) > limits_.long_run; };
-    if (n <= limits_.small_loop)
+    const auto isLast = [&] (std::size_t i) { return way (i, i + 1) > LONG_RUN; };
+    if (n <= SMALL_LOOP)
       return {};
     std::size_t start = 0;
     while (start < n && !isLast (start))
@@ -167,7 +175,7 @@ private:
     for (std::size_t first = start + 1, last = first; last <= start + n; ++last) {
       if (!isLast (last))
         continue;
-      if (last - first >= limits_.small_loop)
+      if (last - first >= SMALL_LOOP)
         for (std::size_t k = 0; k <= way (first, last); ++k)
           points.push_back (loop[(places[first % n] + k) % loop.size ()]);
       first = last + 1;
@@ -285,8 +293,7 @@ private:
   const Positions& positions_;
   const CsrLists& neighbors_;
   const std::vector<float>& spacing_;
-  const bool whole_loops_;
-  const DisturbanceLimits& limits_;
+  const bool whole_loops_, closes_gaps_;
   const RunContext& run_;
   std::vector<std::vector<Index>> loops_;
   std::vector<double> lengths_; // of the loops
@@ -302,10 +309,9 @@ private:
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
                     const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
-                    int rings, bool whole_loops, const DisturbanceLimits& limits,
-                    const RunContext& run)
+                    int rings, bool whole_loops, bool closes_gaps, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, neighbors, spacing, whole_loops, limits, run)
+  return ZoneFinder (mesh, positions, neighbors, spacing, whole_loops, closes_gaps, run)
       .find (crossing, rings);
 }
 

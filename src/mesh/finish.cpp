@@ -4,6 +4,7 @@
 
 #include "mesh/flips.h"
 #include "mesh/hole_filling.h"
+#include "mesh/neck_cutting.h"
 #include "mesh/trimming.h"
 
 namespace pcl::floater {
@@ -17,8 +18,7 @@ constexpr int WIDEST = 3, WIDEST_AGAIN = 2;
 // Fills small loops beside zones that were made anew. They are no openings.
 std::size_t
 fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<float>& spacing,
-              const TriangleCost& cost, const Flags& is_remade, std::size_t largest,
-              const RunContext& run)
+              const TriangleCost& cost, const Flags& is_remade, const RunContext& run)
 {
   std::vector<BoundaryLoop> pinholes;
   std::vector<Index> fan;
@@ -29,12 +29,12 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
     });
   };
   for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
-    if (loop.size () <= largest && std::any_of (loop.begin (), loop.end (), isBeside)) {
+    if (loop.size () <= SMALL_LOOP && std::any_of (loop.begin (), loop.end (), isBeside)) {
       pinholes.emplace_back ();
       pinholes.back ().points = loop;
       measureLoop (pinholes.back (), positions, spacing);
     }
-  return fillHoles (mesh, pinholes, positions, cost, {}, run);
+  return fillHoles (mesh, pinholes, positions, cost, run);
 }
 
 // Removes triangles at the boundary that cross others. Points that they leave join elsewhere.
@@ -85,7 +85,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
   finish.is_repairable = !settings.flip_edges ||
                          static_cast<double> (finish.folds) <= settings.largest_fold_share * edges;
   if (settings.open_boundary) {
-    openNotches (mesh, positions, settings.limits.notches, run);
+    openNotches (mesh, positions, run);
     if (finish.folds > 0)
       openBoundaryFolds (mesh, positions, run);
   }
@@ -96,15 +96,14 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
       if (!settings.remake_sheets || !finish.crossing->untested.empty ())
         return;
       remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
-                   widest, finish.remade, settings.limits.remaking, run);
+                   widest, finish.remade, settings.closes_gaps, run);
       if (finish.remade.points () == 0)
         return;
       std::size_t changes =
           addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
-      if (settings.limits.remaking.disturbance.closes_gaps)
-        changes +=
-            fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
-                          settings.limits.remaking.disturbance.small_loop, run);
+      if (settings.closes_gaps)
+        changes += fillPinholes (mesh, positions, geometry.meshSpacing (), cost,
+                                 finish.remade.is_remade, run);
       if (changes > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
@@ -119,8 +118,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
     if (is_noise && givesUp ())
       return finish;
     if (!is_noise)
-      finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy,
-                                   settings.limits.remaking.necks, run);
+      finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy, run);
     if (finish.necks_cut > 0)
       finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     if (finish.folds + finish.pairs_found + finish.remade.points () + finish.necks_cut > 0) {

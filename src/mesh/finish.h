@@ -19,9 +19,7 @@ struct FinishLimits
 {
   CostLimits cost;
   RepairLimits repair;
-  NotchLimits notches;
   SplitLimits splits;
-  RemakingLimits remaking;
   FacingLimits facing;
 };
 
@@ -39,6 +37,7 @@ struct FinishSettings
   bool add_points = true;        ///< add points that have no triangle (see addMissingPoints)
   bool repair = false;           ///< repair flaws (see repairFlaws), and set MeshFinish::crossing
   bool remake_sheets = false;    ///< then make disturbed zones anew in space
+  bool closes_gaps = true;       ///< boundary loops that are gaps between sheets may be closed then
   bool is_noise = false;         ///< known to be so, see RemadeZones: none is made anew
   bool are_points_added = false; ///< leave the last repair to the caller, who adds points first
   bool open_boundary = false;    ///< remove triangles that fill notches of the boundary, or fold it

@@ -14,6 +14,8 @@ namespace pcl::floater {
 /// meshes"). O(m^3) time and 16 m^2 bytes for m corners. Reuses its memory.
 class PolygonFilling
 {
+  static constexpr auto ALL = [] (Index, Index, Index) { return true; };
+
 public:
   explicit PolygonFilling (const RunContext& run) : run_ (run) {}
 
@@ -24,9 +26,9 @@ public:
   /// \param fits    (p, q, r): whether a triangle is allowed; asked from the cheapest on, since that may
   ///                take more time than the costs
   /// \return m - 2 triangles, anti-clockwise; empty if m < 3 or no triangulation is allowed
-  template <typename Cost, typename Allowed, typename Fits>
+  template <typename Cost, typename Allowed, typename Fits = decltype (ALL)>
   std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed,
-                              Fits&& fits)
+                              const Fits& fits = ALL)
   {
     const std::size_t m = polygon.size ();
     best_.assign (m * m, {0.0, 0});
@@ -69,12 +71,6 @@ public:
     return triangles;
   }
 
-  template <typename Cost, typename Allowed>
-  std::vector<Triangle> fill (const std::vector<Index>& polygon, Cost&& cost, Allowed&& allowed)
-  {
-    return fill (polygon, cost, allowed, [] (Index, Index, Index) { return true; });
-  }
-
 private:
   // The best triangulation of the sub-polygon from corner i to corner j: its cost, and the third
   // corner of the triangle at the edge from i to j.
@@ -100,22 +96,25 @@ private:
   std::vector<Choice> next_;
 };
 
-/// Limits of hole filling.
-struct HoleFillingLimits
+/// The cost of a triangle (p, q, r) of a filling: TriangleCost, plus a cost of its area.
+/// \param step mean edge of the loop
+inline auto
+fillingCost (const TriangleCost& cost, const Positions& positions, double step)
 {
-  double area_cost = 200.0; ///< per doubled area in squared mean steps of the loop, in the unit of
-                            ///< TriangleCost. Large enough that sheets that end face to face are
-                            ///< joined across the narrow gap, instead of each being closed on its
-                            ///< own. Chosen by hand; no measurement is recorded
-  std::size_t largest_polygon = 128; ///< corners up to which the best triangulation is searched, to
-                                     ///< limit the time, which grows with the third power
-};
+  // Per doubled area in squared steps. Large enough that sheets that end face to face are joined across
+  // the narrow gap, instead of each being closed on its own. Chosen by hand; no measurement is recorded.
+  constexpr double AREA_COST = 200.0;
+  return [&cost, &positions, area_cost = AREA_COST / (step * step)] (Index p, Index q, Index r) {
+    return cost (p, q, r) +
+           area_cost * areaVector (positions[p], positions[q], positions[r]).norm ();
+  };
+}
 
 /// Fills every loop that is not kept open by triangles of least total cost between its points (see
-/// PolygonFilling). A loop longer than HoleFillingLimits::largest_polygon is first shortened by
-/// repeatedly cutting off the ear of least cost. Edges of the mesh are not used twice. A loop is kept
-/// open if this would be needed, if it goes round a single triangle, or if there are no triangles that
-/// fit. O(m^3) for a loop of m points up to that limit, O(m log m) beyond; loops on all threads.
+/// PolygonFilling). A loop of more than 128 points is first shortened by repeatedly cutting off the ear
+/// of least cost. Edges of the mesh are not used twice. A loop is kept open if this would be needed, if
+/// it goes round a single triangle, or if there are no triangles that fit. O(m^3) for a loop of m
+/// points up to that limit, O(m log m) beyond; loops on all threads.
 /// \param loops BoundaryLoop::keep_open is set for those that could not be filled
 /// \param fits  whether a triangle may be in a filling. Each loop has a copy of it
 /// \return number of loops filled
@@ -123,7 +122,7 @@ struct HoleFillingLimits
 std::size_t
 fillHoles (
     TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-    const TriangleCost& cost, const HoleFillingLimits& limits, const RunContext& run,
+    const TriangleCost& cost, const RunContext& run,
     const std::function<bool (const Triangle&)>& fits = [] (const Triangle&) { return true; });
 
 } // namespace pcl::floater

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "core/csr_lists.h"
-#include "local/planes.h"
 #include "mesh/triangle_mesh.h"
 
 #include <pcl/surface/floater/options.h>
@@ -49,20 +48,12 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
                    const Positions& positions, const std::vector<float>& spacing,
                    const RunContext& run);
 
-/// Thresholds for points with a large empty sector.
-struct EmptySectorLimits
-{
-  double angle = 130.0; ///< degrees; a larger sector without neighbours counts as empty. Theory:
-                        ///< 180 minus the bend of a hole that is 6 spacings wide
-  SheetLimits sheet;    ///< which neighbours lie on another sheet, as for the stars
-};
-
 /// Features that separate boundaries of the surface from gaps in the sampling. All but `edge`
 /// are dimensionless.
 struct LoopEvidence
 {
-  double open_share = 0.0;   ///< share of its points with a sector of EmptySectorLimits::angle or
-                             ///< more without neighbours on their own sheet
+  double open_share = 0.0;   ///< share of its points with a sector of 130 degrees or more without
+                             ///< neighbours on their own sheet
   double empty_share = 0.0;  ///< share of its points with such a sector without neighbours on any
                              ///< sheet
   double compactness = 0.0;  ///< 4 pi area / length^2: 1 for a circle, near 0 for a slit and for a
@@ -82,39 +73,10 @@ struct LoopEvidence
                       ///< coarse one
 };
 
-/// Thresholds and coefficients that separate boundaries from gaps.
-///
-/// The coefficients belong to a logistic regression: the sum of evidence times coefficient is the
-/// logarithm of the odds that the loop is a boundary. They were fitted to loops of generated
-/// surfaces: windows of 4 to 40 spacings, borders, and gaps, on ten shapes in thirteen samplings,
-/// and on random bodies in four. A gap that stays open counts as four windows that are filled.
-struct OpenLoopLimits
-{
-  EmptySectorLimits sectors;
-  double constant = -12.6;
-  double points = 2.19;      ///< of the logarithm of the number of points
-  double compactness = 12.9; ///< for this and the others see LoopEvidence
-  double irregularity = -5.35;
-  double growth = -2.06;
-  double turning = 1.54;
-  double open_points = 0.599; ///< of the root of the number of points times the 4th power of
-                              ///< open_share: long loops with hardly a point beyond
-  double deepest_gap = 2.46;  ///< of LoopEvidence::depth times open_share, since a loop with points
-                              ///< beyond it is not empty. Deeper gaps stay open by the automatic
-                              ///< policy. Measured: fewer than 1 in 200 generated gaps from 4
-                              ///< spacings on are deeper
-  double alike = 0.2;    ///< difference of the logarithms of the widths of loops that are judged
-                         ///< together. Of 140 generated plates with windows, 137, 138 and 139
-                         ///< are right with 0.1, 0.2 and 0.3, 134 if each is judged by itself
-  double certain = 3.0;  ///< absolute log odds from which on loops are certain: 20 to 1
-  double doubtful = 0.9; ///< probability; less certain decisions are listed in the report;
-                         ///< about one in ten of those is wrong. Chosen by hand
-};
-
-/// Whether a decision is reported: it is less certain than OpenLoopLimits::doubtful, or the loop
-/// stays open only because it is too deep.
+/// Whether a decision is reported: it is less than 90 % certain (about one in ten of those is wrong),
+/// or the loop stays open only because it is too deep.
 bool
-isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
+isDoubtful (const LoopJudgement& judgement);
 
 /// Judges all measured loops that have points. Uses the mesh three rings into the surface, and the
 /// neighbours of the points of each loop. O(n + k log k) for a point of k neighbours, with n for the
@@ -125,8 +87,7 @@ isDoubtful (const LoopJudgement& judgement, const OpenLoopLimits& limits);
 /// \return evidence of each loop, in the order of the loops
 std::vector<LoopEvidence>
 judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const CsrLists& neighbors, const Normals& normals, const OpenLoopLimits& limits,
-            const RunContext& run);
+            const CsrLists& neighbors, const Normals& normals, const RunContext& run);
 
 /// Changes the judgements of loops that are not certain by those of the loops of about the same width:
 /// a surface has several windows of one size, or many gaps of one sampling. The width is not measured
@@ -138,7 +99,7 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Po
 /// and the sum of independent one. O(m log m) for m loops.
 /// \param loops measured and judged; those without points are left out
 void
-judgeTogether (const std::vector<BoundaryLoop*>& loops, const OpenLoopLimits& limits);
+judgeTogether (const std::vector<BoundaryLoop*>& loops);
 
 /// Decides by the judgements which loops are kept open: sets BoundaryLoop::keep_open.
 ///
@@ -152,25 +113,6 @@ void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
                  double unit);
 
-/// Which triangles are too large for the sampling around them. No point lies in the circumcircle of
-/// a triangle, and the largest such circle depends on how even the sampling is: for Poisson disks
-/// its radius is at most the mean edge, among random points about twice that.
-///
-/// Measured on 300 generated surfaces (see OpenLoopLimits): of windows 4 to 8 spacings wide 76 %
-/// stay open instead of 70 %, of narrower ones 39 % instead of 13 %, and no more of 2050 gaps of the
-/// sampling than before.
-struct HoleWideningLimits
-{
-  /// A circumradius may reach the mean edge two rings into the surface; or, where the sampling is
-  /// uneven, this times that edge, plus `spread` times LoopEvidence::irregularity times it.
-  double evenness = 0.4;
-  double spread = 4.0;
-  std::size_t rings = 3;  ///< of triangles that are removed at most, from the loop on
-  double log_odds = 1.39; ///< of a widened loop that stays open, at least; 4 to 1: it is chosen
-                          ///< among many for looking open, and a gap that is opened counts as
-                          ///< four windows that are filled
-};
-
 /// Judges loops, and removes triangles over a hole where a loop that looks like a gap becomes a
 /// likely boundary without them; doubtful loops of one width together (see judgeTogether). O(n) plus
 /// twice judgeLoops ().
@@ -179,7 +121,6 @@ struct HoleWideningLimits
 void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
             const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
-            const OpenLoopLimits& open_loops, const HoleWideningLimits& limits,
             const RunContext& run);
 
 } // namespace pcl::floater

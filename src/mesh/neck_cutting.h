@@ -4,23 +4,9 @@
 #pragma once
 
 #include "local/local_geometry.h"
-#include "mesh/hole_filling.h"
-#include "mesh/triangle_cost.h"
 #include "mesh/triangle_mesh.h"
 
 namespace pcl::floater {
-/// Limits of cutNecks ().
-struct NeckLimits
-{
-  std::size_t longest_loop = 12; ///< edges of a loop that is tried. False handles of thinned scans
-                                 ///< had loops of 3 to 9
-  double cost_left = 0.9; ///< share of the bending along the neck that a cut may leave. Cuts of the
-                          ///< false necks of 588 generated clouds left 0.55 to 0.89, those of true
-                          ///< ones 1 or more
-  CostLimits cost;        ///< of triangles that fill an opening
-  double area_cost = HoleFillingLimits{}.area_cost;
-};
-
 /// Cuts along short loops around necks (see findNeckLoops): takes out the triangles at the points of
 /// a loop, on one side of it or on both, fills the two openings, and adds points that have no
 /// triangle left. The cheapest of these cuts is made if the mesh around is bent clearly less then; of
@@ -32,14 +18,14 @@ struct NeckLimits
 /// \return number of necks that were cut
 std::size_t
 cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
-          Flags is_skipped, const NeckLimits& limits, const RunContext& run);
+          Flags is_skipped, const RunContext& run);
 
 /// Tries the cuts of all necks one by one, the cheapest first, whatever it costs, until one is taken.
 /// \param take whether the mesh with these triangles is taken
 /// \return whether one is
 bool
 cutOneNeck (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
-            const Flags& is_skipped, NeckLimits limits, const RunContext& run,
+            const Flags& is_skipped, const RunContext& run,
             const std::function<bool (std::vector<Triangle>)>& take);
 
 /// Loops of at most `longest` edges around a neck with bent edges: a bridge between two parts of a

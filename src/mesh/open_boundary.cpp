@@ -102,8 +102,7 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
       peel.take (e);
     count += best.size ();
   }
-  if (count > 0)
-    removeTriangles (mesh, std::move (peel).takenTriangles (), run);
+  removeTriangles (mesh, std::move (peel).takenTriangles (), run);
   return count;
 }
 
@@ -129,15 +128,20 @@ chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPa
 }
 
 std::size_t
-openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
-             const RunContext& run)
+openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
+  // Share of the corners of all triangles. An angle that at least this share reaches may belong to the
+  // surface: among random points in the plane, 3 % of all corners have 120 degrees or more. With 1 %, 31
+  // of the 48 areas were within 1 %; with 2 %, 35; with 3 or 5 %, 36, and 5 % removes half as many true
+  // triangles again.
+  constexpr double USUAL_SHARE = 0.03;
+  constexpr double LARGEST_COSINE = -0.02; // 91 degrees: rounding does not decide in a grid
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
   BoundaryPeel peel (mesh);
   if (peel.edges ().empty ())
     return 0;
   std::vector<double> corners = sampleCorners (mesh, positions, run);
-  const double limit = std::min (limits.largest_cosine, quantile (corners, limits.usual_share));
+  const double limit = std::min (LARGEST_COSINE, quantile (corners, USUAL_SHARE));
   std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches;
   const auto offer = [&] (MeshEdge e) {
     const double cosine = cosineAt (e, mesh, positions);
@@ -158,8 +162,7 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& 
     for (const std::uint8_t beside : otherSides (e))
       offer (mesh.mate ({triangle, beside}));
   }
-  if (count > 0)
-    removeTriangles (mesh, std::move (peel).takenTriangles (), run);
+  removeTriangles (mesh, std::move (peel).takenTriangles (), run);
   return count;
 }
 

@@ -75,6 +75,11 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
 Flags
 chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPair>& pairs);
 
+/// Removes triangles with one boundary edge and an unusually obtuse angle opposite to it, the most
+/// obtuse first; this includes triangles that reach the boundary meanwhile. The corner of the angle
+/// must be inside, so every point keeps a triangle, and the numbers of components and boundary
+/// loops and the genus stay. O(n); the result does not depend on the number of threads.
+///
 /// At the boundary, the points alone do not determine whether the triangle in a notch belongs to
 /// the surface. If it does, its angles are like those of others; if it only fills the notch, the
 /// angle opposite to the boundary is obtuse: the boundary edge is not a Gabriel edge then.
@@ -82,24 +87,8 @@ chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPa
 /// Measured on 48 generated bodies, cut by a plane or with windows, except those made of CAD parts:
 /// without such triangles the median area error is .35 %, not 1.2 %, and nine of ten that are
 /// removed are not in the ground truth.
-struct NotchLimits
-{
-  /// Share of the corners of all triangles. An angle that at least this share reaches may belong to
-  /// the surface: among random points in the plane, 3 % of all corners have 120 degrees or more.
-  /// With 1 %, 31 of the 48 areas were within 1 %; with 2 %, 35; with 3 or 5 %, 36, and 5 % removes
-  /// half as many true triangles again.
-  double usual_share = 0.03;
-
-  double largest_cosine = -0.02; ///< 91 degrees: rounding does not decide in a grid
-};
-
-/// Removes triangles with one boundary edge and an unusually obtuse angle opposite to it, the most
-/// obtuse first; this includes triangles that reach the boundary meanwhile. The corner of the angle
-/// must be inside, so every point keeps a triangle, and the numbers of components and boundary
-/// loops and the genus stay. O(n); the result does not depend on the number of threads.
 /// \return number of triangles removed
 std::size_t
-openNotches (TriangleMesh& mesh, const Positions& positions, const NotchLimits& limits,
-             const RunContext& run);
+openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& run);
 
 } // namespace pcl::floater

@@ -36,9 +36,10 @@ public:
     for (std::size_t i = 0; i < place.frame.size (); ++i)
       mesh_.triangles.push_back (
           turnedIf (!is_turned.empty () && is_turned[place.patch_of[i]] != 0, place.frame[i]));
+    Flags is_outside; // of each point: some of its triangles may be missing
     for (std::size_t p = 0; p < place.positions.size (); ++p)
-      is_outside_.push_back (isInside (p) || place.is_whole[p] != 0 ? 0 : 1);
-    is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside_);
+      is_outside.push_back (isInside (p) || place.is_whole[p] != 0 ? 0 : 1);
+    is_manifold_ = mesh_.connect (place.positions.size (), run, &is_outside);
   }
 
   bool isManifold () const { return is_manifold_; }
@@ -113,8 +114,7 @@ private:
 
   const Place& place_;
   TriangleMesh mesh_;
-  Flags is_inside_;  // of each point: free, on the rim, or in other triangles
-  Flags is_outside_; // of each point: some of its triangles may be missing
+  Flags is_inside_; // of each point: free, on the rim, or in other triangles
   bool is_manifold_ = false;
 };
 

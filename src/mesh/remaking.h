@@ -4,21 +4,8 @@
 #pragma once
 
 #include "mesh/disturbed_zones.h"
-#include "mesh/neck_cutting.h"
 
 namespace pcl::floater {
-/// Limits of remakeZones ().
-struct RemakingLimits
-{
-  DisturbanceLimits disturbance;
-  NeckLimits necks;
-  double longest_edge = 6.5; ///< in mean edges around its ends before, or spacings if these are
-                             ///< larger; a longer one is a lid on an opening. Of 120 generated
-                             ///< folded sheets, 8 had lids between 7 and 8, and none shorter ones
-  double faults_left = 0.6; ///< share of the faults of a zone that may be left. A slit along a true
-                            ///< fold has two open edges for each folded one that closes it
-};
-
 /// What remakeZones () has done.
 struct RemadeZones
 {
@@ -46,9 +33,10 @@ struct RemadeZones
 /// \param spacing   of each point (see localSpacing)
 /// \param widest    rings around what is disturbed, at first
 /// \param[in,out] remade adds what was done to what was done before
+/// \param closes_gaps see findDisturbedZones ()
 void
 remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
              const std::vector<float>& spacing, CrossingPairs& crossing, int widest,
-             RemadeZones& remade, const RemakingLimits& limits, const RunContext& run);
+             RemadeZones& remade, bool closes_gaps, const RunContext& run);
 
 } // namespace pcl::floater

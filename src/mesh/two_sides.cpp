@@ -8,6 +8,7 @@
 #include "mesh/triangle_mesh.h"
 
 #include <map>
+#include <tuple>
 
 namespace pcl::floater {
 namespace {
@@ -132,36 +133,34 @@ public:
   {
   }
 
-  RemadePlace make ()
+  RemadePlace make (bool only_counts)
   {
     RemadePlace made;
     if (all_.size () == 0)
       return made;
-    SideMending mending = findSides ();
-    made.flawed = mending.flawed ();
-    const auto free = std::count (place_.is_free.begin (), place_.is_free.end (), 1);
-    if (isNoise (made.flawed, static_cast<std::size_t> (free)))
-      return made;
-    mending.mend ();
-    made.is_right = mending.flawed () == 0;
-    take (made);
-    return made;
-  }
-
-  std::size_t flawed () { return all_.size () == 0 ? 0 : findSides ().flawed (); }
-
-private:
-  using Side = SidesOfSpace::Side;
-
-  SideMending findSides ()
-  {
     measureFacets ();
     placeFrame ();
     joinOutside ();
-    placeFacets ();
-    decide ();
-    return {all_, place_.is_free, overlap_, is_behind_};
+    ProgressLoop progress (run_);
+    for (const Facet& f : facets_) {
+      progress.next ();
+      if (!sides_.put (f.one, f.other, false))
+        sides_.put (f.one, f.other, true);
+    }
+    decide (made.is_turned);
+    SideMending mending (all_, place_.is_free, overlap_, is_behind_);
+    made.flawed = mending.flawed ();
+    const auto free = std::count (place_.is_free.begin (), place_.is_free.end (), 1);
+    if (only_counts || isNoise (made.flawed, static_cast<std::size_t> (free)))
+      return made;
+    mending.mend ();
+    made.is_right = mending.flawed () == 0;
+    take (made.triangles);
+    return made;
   }
+
+private:
+  using Side = SidesOfSpace::Side;
 
   struct Facet
   {
@@ -211,9 +210,7 @@ private:
         facets_.push_back ({overlap, t, other});
       }
     std::sort (facets_.begin (), facets_.end (), [] (const Facet& f, const Facet& g) {
-      return f.overlap != g.overlap
-                 ? f.overlap > g.overlap
-                 : std::make_pair (f.one, f.other) < std::make_pair (g.one, g.other);
+      return std::tie (g.overlap, f.one, f.other) < std::tie (f.overlap, g.one, g.other);
     });
   }
 
@@ -271,19 +268,9 @@ private:
     }
   }
 
-  void placeFacets ()
-  {
-    ProgressLoop progress (run_);
-    for (const Facet& f : facets_) {
-      progress.next ();
-      if (!sides_.put (f.one, f.other, false))
-        sides_.put (f.one, f.other, true);
-    }
-  }
-
   // The front of each set of tetrahedra is where most of the frame has it; without a frame, the
   // outside.
-  void decide ()
+  void decide (Flags& is_turned)
   {
     std::map<Index, std::array<std::size_t, 2>> votes;
     for (std::size_t i = 0; i < place_.frame.size (); ++i)
@@ -305,15 +292,13 @@ private:
     is_behind_.resize (all_.size ());
     for (Index t = 0; t < all_.size (); ++t)
       is_behind_[t] = isFront (sides_.of (t)) ? 0 : 1;
-    is_turned_.assign (place_.patches, 0);
+    is_turned.assign (place_.patches, 0);
     for (Index patch = 0; patch < place_.patches; ++patch)
-      if (front_of_patch_[patch] != NONE) {
-        const Side side = sides_.of (front_of_patch_[patch]);
-        is_turned_[patch] = isFront (side) ? 0 : 1;
-      }
+      if (front_of_patch_[patch] != NONE)
+        is_turned[patch] = isFront (sides_.of (front_of_patch_[patch])) ? 0 : 1;
   }
 
-  void take (RemadePlace& made)
+  void take (std::vector<Triangle>& triangles) const
   {
     for (Index t = 0; t < all_.size (); ++t)
       for (unsigned k = 0; k < 4; ++k) {
@@ -321,9 +306,8 @@ private:
         if (is_behind_[t] != 0 && is_behind_[all_.neighbors[t][k]] == 0 &&
             !isCorner (facet, NONE) &&
             anyCorner (facet, [&] (Index p) { return place_.is_free[p] != 0; }))
-          made.triangles.push_back (facet);
+          triangles.push_back (facet);
       }
-    made.is_turned = std::move (is_turned_);
   }
 
   const Place& place_;
@@ -334,21 +318,14 @@ private:
   std::vector<Facet> facets_;                  // by falling overlap
   std::vector<Index> front_of_patch_;          // a tetrahedron, NONE if there is none
   Flags is_behind_;                            // of each tetrahedron
-  Flags is_turned_;
 };
 
 } // namespace
 
 RemadePlace
-remakePlace (const Place& place, const RunContext& run)
+remakePlace (const Place& place, const RunContext& run, bool only_counts)
 {
-  return PlaceInSpace (place, run).make ();
-}
-
-std::size_t
-flawedPoints (const Place& place, const RunContext& run)
-{
-  return PlaceInSpace (place, run).flawed ();
+  return PlaceInSpace (place, run).make (only_counts);
 }
 
 } // namespace pcl::floater

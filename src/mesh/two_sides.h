@@ -28,10 +28,9 @@ struct RemadePlace
 {
   std::vector<Triangle> triangles; ///< each with a free corner
   Flags is_turned;                 ///< of each patch: its back is the front of `triangles`
-  std::size_t flawed =
-      0; ///< see flawedPoints (). Noise, if there are so many (see isNoise); nothing
-         ///< else is set then
-  bool is_right = false; ///< the new triangles are one fan around each free point
+  std::size_t flawed = 0; ///< free points at which the balls tell no two sides. No triangles,
+                          ///< if they are noise (see isNoise)
+  bool is_right = false;  ///< the new triangles are one fan around each free point
 };
 
 /// Whether points are noise, by the number of the flawed ones of them. Generated bodies with thin
@@ -54,11 +53,8 @@ isNoise (std::size_t flawed, std::size_t points)
 /// come to the same side, unless a free point would then have one side only, or a triangle of the
 /// frame the same side before and behind it; otherwise they are on opposite sides. The surface is
 /// between the sides. O(n log n) in practice; one thread.
+/// \param only_counts sets RemadePlace::flawed, but makes no triangles
 RemadePlace
-remakePlace (const Place& place, const RunContext& run);
-
-/// The number of free points of a place at which the balls tell no two sides.
-std::size_t
-flawedPoints (const Place& place, const RunContext& run);
+remakePlace (const Place& place, const RunContext& run, bool only_counts = false);
 
 } // namespace pcl::floater

@@ -36,9 +36,10 @@ findPatches (const TriangleMesh& mesh, const std::vector<Index>& frame, Place& p
     for (const Index t : mesh.neighbors[frame[i]])
       if (const auto at = number.find (t); at != number.end ())
         sets.join (static_cast<Index> (i), at->second);
-  place.patch_of = std::move (sets).number ([] (Index) { return true; });
-  for (const Index patch : place.patch_of)
-    place.patches = std::max (place.patches, patch + 1);
+  place.patch_of = std::move (sets).number ([&place] (Index) {
+    ++place.patches;
+    return true;
+  });
 }
 
 class ZoneSplicing

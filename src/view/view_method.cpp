@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"
+#include "mesh/hole_filling.h"
 #include "mesh/trimming.h"
 #include "view/outlines.h"
 
@@ -42,7 +43,7 @@ closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& 
     normals.emplace_back (-ray.normalized ().cast<float> ());
   }
   const TriangleCost cost (points.positions, normals, nullptr, settings.surface.finish.cost);
-  return fillHoles (mesh, loops, points.positions, cost, settings.surface.hole_filling, run);
+  return fillHoles (mesh, loops, points.positions, cost, run);
 }
 
 // Unmarks short steps. A depth step is a closed line, or ends at a gap or another step; a few

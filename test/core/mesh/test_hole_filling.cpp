@@ -73,21 +73,19 @@ struct Ring
     EXPECT_EQ (loops.size (), 2U);
   }
 
-  std::size_t fill (const HoleFillingLimits& limits = {})
+  std::size_t fill ()
   {
-    return fillHoles (mesh, loops, positions, TriangleCost (positions, normals), limits, 1);
+    return fillHoles (mesh, loops, positions, TriangleCost (positions, normals), 1);
   }
 };
 
 TEST (HoleFilling, FillsLoopsOfAnySize)
 {
-  HoleFillingLimits ears_only;
-  ears_only.largest_polygon = 3;
   for (const Index around : {3U, 12U, 40U, 128U, 129U, 300U}) {
     SCOPED_TRACE (around);
     Ring ring (around);
     ring.loops[0].keep_open = true;
-    EXPECT_EQ (ring.fill (around == 40 ? ears_only : HoleFillingLimits{}), 1U);
+    EXPECT_EQ (ring.fill (), 1U);
     EXPECT_EQ (ring.mesh.triangles.size (), 3 * around - 2);
     EXPECT_EQ (expectDisc (ring.mesh, 2 * around), indices (around));
     // All faces up, without overlaps: the area is that of the outer polygon.
@@ -119,7 +117,7 @@ TEST (HoleFilling, ALoopThatCannotBeFilledIsKeptOpen)
     loops[0].points = indices (loop);
     loops[0].length = 4.0;
     const TriangleCost cost (positions, normals);
-    EXPECT_EQ (fillHoles (mesh, loops, positions, cost, {}, 1), can_be_filled ? 1U : 0U);
+    EXPECT_EQ (fillHoles (mesh, loops, positions, cost, 1), can_be_filled ? 1U : 0U);
     EXPECT_EQ (loops[0].keep_open, !can_be_filled);
     expectConsistent (mesh);
     return mesh.triangles;
@@ -142,13 +140,13 @@ TEST (HoleFilling, OnlyTrianglesThatFitAreTaken)
     const Index apex = ring.loops[1].points[5];
     const TriangleCost cost (ring.positions, ring.normals);
     TriangleMesh mesh = ring.mesh;
-    EXPECT_EQ (fillHoles (mesh, ring.loops, ring.positions, cost, {}, 1,
+    EXPECT_EQ (fillHoles (mesh, ring.loops, ring.positions, cost, 1,
                           [=] (const Triangle& t) { return isCorner (t, apex); }),
                1U);
     EXPECT_EQ (mesh.triangles.size (), 3 * around - 2);
     for (std::size_t t = 2 * around; t < mesh.triangles.size (); ++t)
       EXPECT_TRUE (isCorner (mesh.triangles[t], apex));
-    EXPECT_EQ (fillHoles (ring.mesh, ring.loops, ring.positions, cost, {}, 1,
+    EXPECT_EQ (fillHoles (ring.mesh, ring.loops, ring.positions, cost, 1,
                           [] (const Triangle&) { return false; }),
                0U);
     EXPECT_TRUE (ring.loops[1].keep_open);
@@ -179,7 +177,7 @@ struct Crossed
                                std::vector<float> (positions.size (), 0.1F), 1);
     EXPECT_EQ (loops.size (), 3U);
     loops[0].keep_open = loops[2].keep_open = true;
-    EXPECT_EQ (fillHoles (mesh, loops, positions, TriangleCost (positions, normals), {}, 1), 1U);
+    EXPECT_EQ (fillHoles (mesh, loops, positions, TriangleCost (positions, normals), 1), 1U);
     pairs = findSelfIntersections (mesh.triangles, positions, 1);
     is_crossing.assign (positions.size (), 0);
     for (const CrossingPair& pair : pairs)
@@ -267,7 +265,7 @@ TEST (OpenBoundary, FlatAndClosedMeshesStay)
   for (const Mesh& mesh : {sheet (9), honeycomb (8, 7), annulus (12), torus (9, 7), Mesh ()}) {
     TriangleMesh changed = connected (mesh);
     EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 0U);
-    EXPECT_EQ (openNotches (changed, mesh.positions, NotchLimits (), 1), 0U);
+    EXPECT_EQ (openNotches (changed, mesh.positions, 1), 0U);
     EXPECT_EQ (changed.triangles, mesh.triangles);
   }
 }
@@ -336,7 +334,7 @@ TEST (BoundaryNotches, FillingsAreTakenOut)
       filled.triangles.push_back ({last, last - COLUMNS - 1, last + COLUMNS + 1});
   }
   TriangleMesh changed = connected (filled);
-  EXPECT_EQ (openNotches (changed, filled.positions, NotchLimits (), 1), ROWS - 1U);
+  EXPECT_EQ (openNotches (changed, filled.positions, 1), ROWS - 1U);
   EXPECT_EQ (changed.triangles, mesh.triangles);
 }
 

@@ -114,13 +114,12 @@ TEST (OpenLoops, OfUnlikelyBoundariesThoseWithMostEmptinessBeyondAreKept)
 
 TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)
 {
-  const OpenLoopLimits limits; // nine in ten
   for (const double sign : {-1.0, 1.0}) {
-    EXPECT_TRUE (isDoubtful ({sign * 2.19, 0.0, false}, limits)); // log (9) is 2.197
-    EXPECT_FALSE (isDoubtful ({sign * 2.20, 0.0, false}, limits));
+    EXPECT_TRUE (isDoubtful ({sign * 2.19, 0.0, false})); // nine in ten: log (9) is 2.197
+    EXPECT_FALSE (isDoubtful ({sign * 2.20, 0.0, false}));
   }
-  EXPECT_TRUE (isDoubtful ({-9.0, 0.0, true}, limits));
-  EXPECT_FALSE (isDoubtful ({9.0, 0.0, true}, limits));
+  EXPECT_TRUE (isDoubtful ({-9.0, 0.0, true}));
+  EXPECT_FALSE (isDoubtful ({9.0, 0.0, true}));
   EXPECT_NEAR ((LoopJudgement{std::log (9.0), 0.0, false}.probability ()), 0.9, 1e-12);
 }
 
@@ -162,7 +161,7 @@ struct TriangularSheet
 
   std::vector<LoopEvidence> evidence ()
   {
-    return judgeLoops (mesh, loops, positions, neighbors, normals, {}, 1);
+    return judgeLoops (mesh, loops, positions, neighbors, normals, 1);
   }
 };
 
@@ -197,7 +196,7 @@ TEST (LoopEvidence, OfLoopsOfOneWidthIsJudgedTogether)
       all[i].judgement.log_odds = loops[i].second;
       judged.push_back (&all[i]);
     }
-    judgeTogether (judged, {});
+    judgeTogether (judged);
     std::vector<double> odds;
     for (const BoundaryLoop& loop : all)
       odds.push_back (loop.judgement.log_odds);

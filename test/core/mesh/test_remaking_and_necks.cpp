@@ -118,7 +118,7 @@ struct Spheres
   {
     CrossingPairs pairs = crossing ();
     RemadeZones remade;
-    remakeZones (mesh, positions, neighbors, spacing, pairs, 3, remade, {}, 2);
+    remakeZones (mesh, positions, neighbors, spacing, pairs, 3, remade, true, 2);
     EXPECT_EQ (pairs, crossing ());
     return remade;
   }
@@ -208,8 +208,8 @@ TEST (Remaking, KeepsOpenings)
   const auto zones = [] (Index around) {
     const Mesh ring = annulus (around);
     return findDisturbedZones (connected (ring), ring.positions, nearestOf (ring.positions, 20),
-                               std::vector<float> (ring.positions.size (), 0.2F), {}, 3, false, {},
-                               1)
+                               std::vector<float> (ring.positions.size (), 0.2F), {}, 3, false,
+                               true, 1)
         .points.rows ();
   };
   EXPECT_EQ (zones (12), 0U);
@@ -292,7 +292,7 @@ TEST (NeckCutting, CutsBridgesBetweenSheets)
   for (const std::vector<std::size_t>& places :
        {std::vector<std::size_t>{}, {180}, {95, 290}, {95, 290, 121, 268}}) {
     TwoSheets sheets = joinedSheets (places);
-    EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), {}, {}, 1),
+    EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), {}, 1),
                places.size ());
     expectConsistent (sheets.mesh);
     expectTopology (sheets.mesh.triangles, sheets.positions.size (), 2, 2, 2);
@@ -307,7 +307,7 @@ TEST (NeckCutting, LeavesOutWhatIsSkipped)
   const Eigen::Vector3d bridge = sheets.positions[sheet (14).triangles[290][0]];
   for (Index p = 0; p < is_skipped.size (); ++p)
     is_skipped[p] = (sheets.positions[p] - bridge).norm () < 0.3 ? 1 : 0;
-  EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, {}, 1), 1U);
+  EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, 1), 1U);
   expectTopology (sheets.mesh.triangles, sheets.positions.size (), 1, 0, 2);
 }
 
@@ -323,7 +323,7 @@ TEST (NeckCutting, CutsOneNeckThatMayBe)
     return ++tried == 2;
   };
   const auto cut = [&] (const std::vector<std::uint8_t>& is_skipped) {
-    return cutOneNeck (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, {}, 1, take);
+    return cutOneNeck (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, 1, take);
   };
   EXPECT_TRUE (cut ({}));
   EXPECT_EQ (tried, 2U);
@@ -346,9 +346,9 @@ TEST (NeckCutting, KeepsThinTubes)
         p += (radius - 1.0) * middle;
       }
       sheets.positions = torus.positions;
-      EXPECT_EQ (cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across),
-                           {}, {}, 1),
-                 0U);
+      EXPECT_EQ (
+          cutNecks (sheets.mesh, sheets.positions, geometryOf (sheets, 0.8 * PI / across), {}, 1),
+          0U);
       expectSame (sheets.mesh, connected (torus));
     }
 }
