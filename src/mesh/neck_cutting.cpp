@@ -313,17 +313,24 @@ cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& g
 }
 
 bool
-cutOneNeck (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
-            const Flags& is_skipped, const RunContext& run,
-            const std::function<bool (std::vector<Triangle>)>& take)
+cutNecksIfTaken (const TriangleMesh& mesh, const Positions& positions,
+                 const LocalGeometry& geometry, const Flags& is_skipped, std::size_t most,
+                 const RunContext& run, const std::function<bool (std::vector<Triangle>)>& take)
 {
-  const std::vector<Replacement> made = findCuts (mesh, positions, geometry, is_skipped,
-                                                  std::numeric_limits<double>::infinity (), run);
-  std::size_t cuts = 0;
-  std::vector<Index> around;
-  return std::any_of (made.begin (), made.end (), [&] (const Replacement& cut) {
-    return take (withCuts (mesh, &cut, &cut + 1, cuts, around));
-  });
+  std::vector<Replacement> taken;
+  for (Replacement& cut : findCuts (mesh, positions, geometry, is_skipped,
+                                    std::numeric_limits<double>::infinity (), run)) {
+    if (taken.size () == most)
+      break;
+    taken.push_back (std::move (cut));
+    std::size_t cuts = 0;
+    std::vector<Index> around;
+    std::vector<Triangle> triangles =
+        withCuts (mesh, taken.data (), taken.data () + taken.size (), cuts, around);
+    if (cuts < taken.size () || !take (std::move (triangles)))
+      taken.pop_back ();
+  }
+  return !taken.empty ();
 }
 
 } // namespace pcl::floater

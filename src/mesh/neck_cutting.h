@@ -20,13 +20,15 @@ std::size_t
 cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
           Flags is_skipped, const RunContext& run);
 
-/// Tries the cuts of all necks one by one, the cheapest first, whatever it costs, until one is taken.
+/// Tries the cuts of all necks one by one, the cheapest first, whatever they cost. Each one that is taken
+/// stays; those that overlap it are not tried.
+/// \param most number of cuts that are taken
 /// \param take whether the mesh with these triangles is taken
-/// \return whether one is
+/// \return whether any is
 bool
-cutOneNeck (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
-            const Flags& is_skipped, const RunContext& run,
-            const std::function<bool (std::vector<Triangle>)>& take);
+cutNecksIfTaken (const TriangleMesh& mesh, const Positions& positions,
+                 const LocalGeometry& geometry, const Flags& is_skipped, std::size_t most,
+                 const RunContext& run, const std::function<bool (std::vector<Triangle>)>& take);
 
 /// Loops of at most `longest` edges around a neck with bent edges: a bridge between two parts of a
 /// mesh, or a tunnel through a wall. Around each point of an edge that is bent by more than 60

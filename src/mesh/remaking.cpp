@@ -69,8 +69,9 @@ public:
       const std::vector<Index> misfits = after->misfits (run_);
       if (misfits.empty ()) {
         const PieceInPlace before (at.place, at.old, {}, run_);
-        while (after->isManifold () && after->twiceHandles (run_) > before.twiceHandles (run_)) {
-          if (!cutHandle (at, *after, made))
+        const long handles = before.twiceHandles (run_);
+        while (after->isManifold () && after->twiceHandles (run_) > handles) {
+          if (!cutHandles (at, *after, handles, made))
             return std::nullopt;
           after.emplace (at.place, made.triangles, made.is_turned, run_);
         }
@@ -124,9 +125,11 @@ private:
     return geometry;
   }
 
-  // Cuts a handle along the cheapest loop of free points.
+  // Cuts handles along the cheapest loops of free points that do not overlap.
+  // \param twice_left twice the number of handles that may stay
   // \return whether there is one
-  bool cutHandle (const PlaceOfMesh& at, const PieceInPlace& piece, RemadePlace& made) const
+  bool cutHandles (const PlaceOfMesh& at, const PieceInPlace& piece, long twice_left,
+                   RemadePlace& made) const
   {
     const Place& place = at.place;
     std::multiset<Triangle> frame;
@@ -135,6 +138,7 @@ private:
     Flags is_fixed;
     for (const std::uint8_t is_free : place.is_free)
       is_fixed.push_back (is_free == 0 ? 1 : 0);
+    long twice = piece.twiceHandles (run_);
     const auto take = [&] (std::vector<Triangle> triangles) {
       const std::size_t all = triangles.size ();
       triangles.erase (std::remove_if (triangles.begin (), triangles.end (),
@@ -142,13 +146,15 @@ private:
                        triangles.end ());
       const PieceInPlace after (place, triangles, made.is_turned, run_);
       if (triangles.size () + frame.size () != all || !after.isManifold () ||
-          after.twiceHandles (run_) >= piece.twiceHandles (run_) || !after.misfits (run_).empty ())
+          after.twiceHandles (run_) >= twice || !after.misfits (run_).empty ())
         return false;
+      twice = after.twiceHandles (run_);
       made.triangles = std::move (triangles);
       return true;
     };
-    return cutOneNeck (piece.mesh (), place.positions, geometryOf (at, piece.mesh ()), is_fixed,
-                       run_, take);
+    const auto most = static_cast<std::size_t> (twice - twice_left + 1) / 2; // each is two fewer
+    return cutNecksIfTaken (piece.mesh (), place.positions, geometryOf (at, piece.mesh ()),
+                            is_fixed, most, run_, take);
   }
 
   static NewZone newZone (std::vector<Index> free, const PlaceOfMesh& at, const RemadePlace& made)

@@ -23,7 +23,7 @@ struct RemadeZones
 /// came out wrong again, narrower by a ring each time. At first, loops that are gaps in part are
 /// gaps all along. A zone grows by points at which its new triangles do not fit to those around. It
 /// stays as it was if its new triangles fit nowhere, have a handle more that no loop cuts (the
-/// cheapest one that does is cut, whatever it costs: see cutOneNeck), a lid on an opening, or not
+/// cheapest ones that do are cut, whatever they cost: see cutNecksIfTaken), a lid on an opening, or not
 /// clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each
 /// other; also if it is large and some places in it are noise (see isNoise). Components may come out
 /// with either side as the front. Points of new components by themselves are left without a triangle.

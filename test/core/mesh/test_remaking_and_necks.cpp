@@ -311,25 +311,28 @@ TEST (NeckCutting, LeavesOutWhatIsSkipped)
   expectTopology (sheets.mesh.triangles, sheets.positions.size (), 1, 0, 2);
 }
 
-// One of two bridges goes: the second that is tried.
-TEST (NeckCutting, CutsOneNeckThatMayBe)
+// One of two bridges goes, the second that is tried; or both, one after the other.
+TEST (NeckCutting, CutsNecksThatAreTaken)
 {
-  TwoSheets sheets = joinedSheets ({95, 290});
-  std::size_t tried = 0;
+  const TwoSheets sheets = joinedSheets ({95, 290});
+  std::size_t tried = 0, first_taken = 2;
   std::vector<Triangle> taken;
   const auto take = [&] (std::vector<Triangle> triangles) {
     taken = std::move (triangles);
-    expectTopology (taken, sheets.positions.size (), 1, 0, 2);
-    return ++tried == 2;
+    return ++tried >= first_taken;
   };
-  const auto cut = [&] (const std::vector<std::uint8_t>& is_skipped) {
-    return cutOneNeck (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, 1, take);
+  const auto cut = [&] (const std::vector<std::uint8_t>& is_skipped, std::size_t most) {
+    return cutNecksIfTaken (sheets.mesh, sheets.positions, geometryOf (sheets), is_skipped, most, 1,
+                            take);
   };
-  EXPECT_TRUE (cut ({}));
+  EXPECT_TRUE (cut ({}, 1));
   EXPECT_EQ (tried, 2U);
-  sheets.mesh = connected (taken, sheets.positions.size ());
-  expectConsistent (sheets.mesh);
-  EXPECT_FALSE (cut (std::vector<std::uint8_t> (sheets.positions.size (), 1)));
+  expectTopology (taken, sheets.positions.size (), 1, 0, 2);
+  EXPECT_FALSE (cut (std::vector<std::uint8_t> (sheets.positions.size (), 1), 1));
+  first_taken = 0;
+  EXPECT_TRUE (cut ({}, 2));
+  expectConsistent (connected (taken, sheets.positions.size ()));
+  expectTopology (taken, sheets.positions.size (), 2, 0, 2);
 }
 
 // Also those whose rings are several times as far apart as they are wide.
