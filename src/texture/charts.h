@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cuts a surface into charts: compact, nearly flat discs that end at creases.
+// Cuts a surface into charts: compact, nearly flat discs that end at creases; before, it smooths strong noise.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -65,6 +65,14 @@ struct ChartLimits
 /// Area vectors of all triangles: twice the area times the unit normal. O(n).
 Positions
 areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunContext& run);
+
+/// Moves rough vertices, and those around them, to the mean of their neighbours (at the boundary,
+/// of those along it) until they are smooth. Charts are found and laid out on this surface: on the
+/// noisy one, normals are random, and every bump becomes a chart. O(n) for each round; one if there
+/// is no noise.
+/// \return positions per point; other vertices are unchanged
+Positions
+smoothNoise (const TriangleMesh& mesh, const Positions& original, const RunContext& run);
 
 /// Joins neighbouring triangles to facets: discs, at most as large as ChartLimits::most_in_facet
 /// and flatter than ChartLimits::facet_deviation. Few triangles stay alone. O(n), one thread: 0.2

@@ -7,7 +7,6 @@
 #include "texture/atlas.h"
 #include "texture/chart_mesh.h"
 #include "texture/charts.h"
-#include "texture/smoothing.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
 
@@ -16,7 +15,6 @@ namespace {
 // The limits of all steps.
 struct TextureLimits
 {
-  SmoothingLimits smoothing;
   ChartLimits charts;
   DescentLimits descent;
   AtlasLimits atlas;
@@ -278,8 +276,8 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
 
   const TextureLimits limits;
   // Charts (discs) and their layouts, on the surface without its noise.
-  std::vector<ChartLayout> charts = layOutCharts (
-      mesh, places, smoothNoise (mesh, places, limits.smoothing, run), options, limits, run);
+  std::vector<ChartLayout> charts =
+      layOutCharts (mesh, places, smoothNoise (mesh, places, run), options, limits, run);
 
   // All charts in one square, in single precision. Charts of which that flips triangles, such as of
   // sizes that differ by more than its digits, are taken apart.
