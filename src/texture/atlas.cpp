@@ -1,16 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/atlas.h"
-
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "texture/chart_layout.h"
 
 #include <boost/icl/interval_set.hpp>
 
 namespace pcl::floater {
 namespace {
+// Packing cells along the side of the square. Charts are 2 cells apart: 4 pixels of a texture of 2048,
+// enough for two levels of a mipmap.
+constexpr double LEAST_CELLS = 1024.0;
+
+// For many charts: cells along the side, for each square root of their number. A chart of one triangle
+// takes at least 3 x 3.
+constexpr double CELLS_PER_CHART = 12.0;
+
+constexpr double FIRST_FILL = 0.75; // share of the square to be covered in the first attempt
+constexpr int MOST_WIDTHS = 4;      // tried for the square
+
 // Cells of a row, from a first one up to, and without, an end.
 using Cells = boost::icl::right_open_interval<Index>;
 
@@ -213,7 +223,7 @@ makeCellMask (const CellArray& taken)
 // width is varied until it equals the height.
 // \return the positions, and the side of the square in cells
 std::pair<std::vector<CellPlace>, Index>
-packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContext& run)
+packCells (const std::vector<TurnedMasks>& shapes, const RunContext& run)
 {
   std::vector<Index> order (shapes.size ());
   std::iota (order.begin (), order.end (), Index{0});
@@ -231,7 +241,7 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
       least_width, static_cast<Index> (std::sqrt (static_cast<double> (cells) / EXPECTED_FILL)));
   std::vector<CellPlace> best, places;
   Index least_side = NONE;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
+  for (int attempt = 0; attempt < MOST_WIDTHS; ++attempt) {
     const Index height = packInStrip (shapes, order, width, run, places);
     if (std::max (width, height) < least_side) {
       least_side = std::max (width, height);
@@ -308,13 +318,12 @@ turnQuarters (std::vector<Vector2d>& uv, int quarters)
 } // namespace
 
 double
-packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const RunContext& run)
+packCharts (std::vector<ChartLayout>& charts, const RunContext& run)
 {
   if (charts.empty ())
     return 0.0;
   const double cells = std::max (
-      static_cast<double> (limits.cells),
-      std::ceil (limits.cells_per_chart * std::sqrt (static_cast<double> (charts.size ()))));
+      LEAST_CELLS, std::ceil (CELLS_PER_CHART * std::sqrt (static_cast<double> (charts.size ()))));
   const auto weightOf = [] (const ChartLayout& chart) {
     constexpr double MOST_STRETCH = 1000.0;
     return chart.area * std::min (chart.stretch, MOST_STRETCH);
@@ -323,7 +332,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   double total = std::numeric_limits<double>::min ();
   for (const ChartLayout& chart : charts)
     total += weightOf (chart);
-  const double cells_per_area = limits.first_fill * cells * cells / total;
+  const double cells_per_area = FIRST_FILL * cells * cells / total;
   std::vector<TurnedMasks> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
@@ -333,7 +342,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
       touched = CellArray (touched.transpose ().rowwise ().reverse ());
     }
   });
-  const auto packed = packCells (masks, limits.attempts, run);
+  const auto packed = packCells (masks, run);
   const auto side = static_cast<double> (packed.second);
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     const auto& [x, y, quarters] = packed.first[c];

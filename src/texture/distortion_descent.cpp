@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/distortion_descent.h"
-
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/order_statistics.h"
+#include "texture/chart_layout.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
