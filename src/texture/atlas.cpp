@@ -69,18 +69,18 @@ extentBetween (const std::array<Vector2d, 3>& corners, double low, double high)
 }
 
 // A strip of cells of a given width and any height.
-class Strip
+struct Strip
 {
   using CellRow = boost::icl::interval_set<Index, std::less, Cells>;
 
-public:
-  explicit Strip (Index width) : width_ (width) {}
+  Index width;
+  std::vector<CellRow> rows{}; // occupied cells
+  std::size_t work = 0;        // rows of shapes that were looked at
 
   // The lowest free position of a shape from a row on, then the leftmost one; in row `end` if there
   // is none below. For shapes that are not wider than the strip.
-  CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end)
+  CellPlace findPlace (const CellMask& shape, CellPlace place, std::size_t end)
   {
-    CellPlace place = from;
     while (place.y < end && !moveToFree (shape, place))
       place = {0, place.y + 1};
     return place;
@@ -88,29 +88,24 @@ public:
 
   void occupy (const CellMask& shape, const CellPlace& place)
   {
-    rows_.resize (std::max (rows_.size (), place.y + shape.rows.size ()));
+    rows.resize (std::max (rows.size (), place.y + shape.rows.size ()));
     for (std::size_t r = 0; r < shape.rows.size (); ++r)
       for (const Cells& run : shape.rows[r])
-        rows_[place.y + r] += Cells (place.x + run.lower (), place.x + run.upper ());
+        rows[place.y + r] += Cells (place.x + run.lower (), place.x + run.upper ());
   }
 
-  std::size_t height () const { return rows_.size (); }
-
-  std::size_t work () const { return work_; } // rows of shapes that were looked at
-
-private:
   // Moves a shape to the right until it is free. Skipped positions are occupied, so earlier rows
   // need no new test.
   // \return false if it leaves the strip
   bool moveToFree (const CellMask& shape, CellPlace& place)
   {
-    const std::size_t rows = std::min (
-        shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
+    const std::size_t tested =
+        std::min (shape.rows.size (), rows.size () - std::min (rows.size (), std::size_t{place.y}));
     std::size_t free_rows = 0; // the last tested ones
-    for (std::size_t r = 0; free_rows < rows && place.x + shape.width <= width_;
-         r = r + 1 < rows ? r + 1 : 0, ++work_)
-      free_rows = moveInRow (rows_[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
-    return place.x + shape.width <= width_;
+    for (std::size_t r = 0; free_rows < tested && place.x + shape.width <= width;
+         r = r + 1 < tested ? r + 1 : 0, ++work)
+      free_rows = moveInRow (rows[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
+    return place.x + shape.width <= width;
   }
 
   // \return whether the shape was moved
@@ -128,10 +123,6 @@ private:
     }
     return x != before;
   }
-
-  Index width_;
-  std::vector<CellRow> rows_; // occupied cells
-  std::size_t work_ = 0;
 };
 
 // \param[out] places of the shapes
@@ -141,14 +132,14 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
              const RunContext& run, std::vector<CellPlace>& places)
 {
   places.resize (shapes.size ());
-  Strip strip (width);
+  Strip strip{width};
   // Where there are thousands of long shapes, such as needles, the rest is packed as boxes upwards.
   const std::size_t most_work = MOST_WORK + MOST_WORK_OF_SHAPE * shapes.size ();
   CellPlace last_of_rest;
   ProgressLoop progress (run, shapes.size ());
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
-    if (strip.work () > most_work) {
+    if (strip.work > most_work) {
       CellMask box = shapes[s][0];
       box.rows.assign (box.rows.size (), {Cells (0, box.width)});
       places[s] = last_of_rest = strip.findPlace (box, last_of_rest, NONE);
@@ -169,7 +160,7 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
     }
     strip.occupy (shapes[s][places[s].quarters], places[s]);
   }
-  return static_cast<Index> (strip.height ());
+  return static_cast<Index> (strip.rows.size ());
 }
 
 // The cells that triangles touch, and all adjacent cells; so the array begins one cell left of and

@@ -129,19 +129,14 @@ private:
     const double deviation = area > 0.0 ? 1.0 - sum.norm () / area : 0.0;
     const Contact& contact = one.contacts.at (b);
     const double crease = contact.length > 0.0 ? contact.crease / contact.length : 0.0;
-    return deviation + limits_.crease_weight * crease +
-           limits_.away_weight * shareAway (one.facing + other.facing, sum, area);
-  }
-
-  // Share of the area that is turned away from the sum.
-  double shareAway (const Histogram& facing, const Vector3d& sum, double area) const
-  {
+    const Histogram facing = one.facing + other.facing;
     const double level = limits_.away_cosine * sum.norm ();
-    double away = 0.0;
+    double away = 0.0; // area that is turned away from the sum
     for (std::size_t d = 0; d < directions_.size (); ++d)
       if (directions_[d].dot (sum) < level)
         away += static_cast<double> (facing[static_cast<Eigen::Index> (d)]);
-    return area > 0.0 ? away / area : 0.0;
+    return deviation + limits_.crease_weight * crease +
+           limits_.away_weight * (area > 0.0 ? away / area : 0.0);
   }
 
   double costOf (Index a, Index b) const
@@ -176,7 +171,9 @@ private:
     while (!offers_.empty () && left_ > (halves_ ? 2U : 1U)) {
       const Offer offer = offers_.top ();
       offers_.pop ();
-      if (!isCurrent (offer))
+      // One of the charts was joined to another one, or there is a later offer for the two.
+      const auto contact = charts_[offer.a].contacts.find (offer.b);
+      if (contact == charts_[offer.a].contacts.end () || contact->second.offered != offer.cost)
         continue;
       // Charts have grown since then, which mostly raises the cost.
       if (costOf (offer.a, offer.b) > offer.cost)
@@ -195,13 +192,6 @@ private:
     const double cost = costOf (a, b);
     charts_[a].contacts.at (b).offered = charts_[b].contacts.at (a).offered = cost;
     offers_.push ({cost, std::min (a, b), std::max (a, b)});
-  }
-
-  // False if a chart was joined to another one, or there is a later offer for the two.
-  bool isCurrent (const Offer& offer) const
-  {
-    const auto contact = charts_[offer.a].contacts.find (offer.b);
-    return contact != charts_[offer.a].contacts.end () && contact->second.offered == offer.cost;
   }
 
   // Whether the union of two discs is a disc: their common border must be connected and not closed,

@@ -29,10 +29,6 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
   std::vector<Index> border; // triangles beside the facet; some may be taken already
   Vector3d sum, middle;
   double area = 0.0;
-  const auto middleOf = [&] (Index t) -> Vector3d {
-    const Triangle& corners = mesh.triangles[t];
-    return (positions[corners[0]] + positions[corners[1]] + positions[corners[2]]) / 3.0;
-  };
   const auto add = [&] (Index t) {
     facets.of_triangle[t] = facets.count;
     for (const Index p : mesh.triangles[t])
@@ -42,7 +38,7 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
         border.push_back (other);
     const double of_triangle = area_vectors[t].norm ();
     sum += area_vectors[t];
-    middle += of_triangle * middleOf (t);
+    middle += of_triangle * middleOf (mesh.triangles[t], positions);
     area += of_triangle;
   };
   // Whether a facet that is a disc stays one: its common border with the triangle is one path.
@@ -67,8 +63,8 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
       const double deviation = lengths > 0.0 ? 1.0 - sum.dot (area_vectors[t]) / lengths : 0.0;
       if (deviation > limits.facet_deviation)
         continue;
-      const double distance =
-          area > 0.0 ? (middleOf (t) - middle / area).squaredNorm () / area : 0.0;
+      const Vector3d own = middleOf (mesh.triangles[t], positions);
+      const double distance = area > 0.0 ? (own - middle / area).squaredNorm () / area : 0.0;
       const double cost = deviation + ROUNDNESS * distance;
       if ((cost < least || (cost == least && t < best)) && keepsDisc (t)) {
         best = t;
