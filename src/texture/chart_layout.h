@@ -24,16 +24,11 @@ struct DescentLimits
   int steps = 60;                ///< at most
   double least_progress = 0.003; ///< relative decrease of the distortion above its minimum by a
                                  ///< step; below, it ends
-  double enough = 4.3;           ///< distortion above which Newton's method follows; the minimum is
-                                 ///< 4
   int newton_steps = 15;         ///< at most
-  double least_newton_progress = 0.02; ///< as least_progress
 
   /// Largest chart that may start on a circle, from where the descent is slow and ends early. A
   /// larger one without valid projection gets no layout, and is cut.
   std::size_t most_on_circle = 5'000;
-
-  double safe_share = 0.8; ///< of the step to the first triangle without area
 };
 
 /// Lays the boundary on a circle by the lengths of its edges, and every inner vertex at the mean of its
