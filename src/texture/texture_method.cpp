@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Texture coordinates of a mesh: charts, their layout, the atlas.
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "core/problem.h"
 #include "floater/solvers/solver.h"
@@ -51,38 +52,29 @@ struct ChartCutter
     return layOutChart (mesh.triangles, std::move (chart), positions, limits, run);
   }
 
-  // Cuts a chart with too much stretch, or without layout. Each piece has fewer triangles, and one
-  // has a layout.
+  // Cuts a chart with too much stretch, or without layout, in two, or in more where their union would be
+  // no disc. Each piece has fewer triangles, and one has a layout.
   void layOutParts (ChartLayout chart, Layouts& result) const
-  {
-    if (chart.triangles.size () == 1 || (!chart.uv.empty () && chart.stretch <= largest_stretch)) {
-      result.push_back (std::move (chart));
-      return;
-    }
-    const std::vector<std::vector<Index>> parts = cut (chart.triangles);
-    chart = {};
-    for (const std::vector<Index>& part : parts)
-      layOutParts (layOut (part), result);
-  }
-
-  // Cuts a chart of several triangles in two, or in more where their union would be no disc.
-  std::vector<std::vector<Index>> cut (const std::vector<Index>& chart) const
   {
     constexpr double HALF = 0.6; // share of the triangles in the larger part, at most
     // Facets: one for so many triangles, with a minimum. They decide the time of the search.
     constexpr std::size_t TRIANGLES_PER_FACET = 8, LEAST_FACETS = 1'000;
-    const MeshPiece part = cutOut (mesh.triangles, chart, positions);
+    const std::size_t size = chart.triangles.size ();
+    if (size == 1 || (!chart.uv.empty () && chart.stretch <= largest_stretch)) {
+      result.push_back (std::move (chart));
+      return;
+    }
     ChartLimits halves;
-    halves.facets =
-        std::min (halves.facets, std::max (LEAST_FACETS, chart.size () / TRIANGLES_PER_FACET));
-    halves.most_triangles = std::max<std::size_t> (
-        1, static_cast<std::size_t> (HALF * static_cast<double> (chart.size ())));
-    std::vector<std::vector<Index>> lists =
-        listsOf (findCharts (part.mesh, part.positions, true, halves, run));
-    for (std::vector<Index>& list : lists)
-      for (Index& t : list)
-        t = chart[t];
-    return lists;
+    halves.facets = std::min (halves.facets, std::max (LEAST_FACETS, size / TRIANGLES_PER_FACET));
+    halves.most_triangles =
+        std::max<std::size_t> (1, static_cast<std::size_t> (HALF * static_cast<double> (size)));
+    std::vector<std::vector<Index>> parts = listsOf (
+        findCharts (chart.chart.mesh, valuesAt (positions, chart.chart.points), true, halves, run));
+    for (std::vector<Index>& part : parts)
+      part = valuesAt (chart.triangles, part);
+    chart = {};
+    for (std::vector<Index>& part : parts)
+      layOutParts (layOut (std::move (part)), result);
   }
 };
 
@@ -214,20 +206,6 @@ takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std
   }
 }
 
-void
-findSeams (const TriangleMesh& mesh, const Positions& positions, TextureCoordinates& result)
-{
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index other = mesh.neighbors[t][side];
-      if (other == NONE || other < t || result.charts[other] == result.charts[t])
-        continue;
-      const MeshEdge edge{t, side};
-      result.seams.push_back ({mesh.from (edge), mesh.to (edge)});
-      result.seam_length += (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
-    }
-}
-
 // All steps. Sets everything except status and message.
 Problem
 makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>& triangles,
@@ -288,7 +266,15 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
   }
   result.chart_count = charts.size ();
   result.flipped = flipped.size ();
-  findSeams (mesh, places, result);
+  for (Index t = 0; t < triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh.neighbors[t][side];
+      if (other == NONE || other < t || result.charts[other] == result.charts[t])
+        continue;
+      const Index from = mesh.from ({t, side}), to = mesh.to ({t, side});
+      result.seams.push_back ({from, to});
+      result.seam_length += distanceBetween (places, from, to);
+    }
   result.seam_length *= unit;
   const StretchSums sums = stretchOf (triangles, places, result.corners, uv);
   result.stretch = sums.mean ();
