@@ -253,18 +253,6 @@ conclude (const LinearSystem& system, const SolverOptions& options, Solution& so
     solution.uv.resize (0, 2);
 }
 
-void
-solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions& options,
-             const RunContext& run, Solution& solution)
-{
-  if (options.method == Solver::BICGSTAB_ILUT)
-    solveWithBicgstab (system, options, run, solution);
-  else
-    solveWithUmfpack (system, ordering, run, solution);
-  if (solution.uv.rows () > 0)
-    conclude (system, options, solution);
-}
-
 } // namespace
 
 LinearSystem
@@ -335,21 +323,29 @@ solve (const LinearSystem& system, const SolverOptions& options, const RunContex
     solution.reciprocal_condition = 1.0;
     return solution;
   }
+  // Solves a system as it comes.
+  const auto solveAsItIs = [&] (const LinearSystem& as_it_is, Ordering ordering) {
+    if (options.method == Solver::BICGSTAB_ILUT)
+      solveWithBicgstab (as_it_is, options, run, solution);
+    else
+      solveWithUmfpack (as_it_is, ordering, run, solution);
+    if (solution.uv.rows () > 0)
+      conclude (as_it_is, options, solution);
+  };
   Ordering ordering = options.ordering;
   if (options.method == Solver::UMFPACK && ordering == Ordering::AUTOMATIC)
     ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
   if (ordering == Ordering::AUTOMATIC || ordering == Ordering::NATURAL ||
       (options.method == Solver::UMFPACK && ordering == Ordering::AMD)) {
-    solveAsItIs (system, ordering, options, run, solution);
+    solveAsItIs (system, ordering);
     return solution;
   }
-  // Any solver can solve the reordered system as it comes.
   const Order order = orderUnknowns (system.matrix, ordering);
   const Order place = order.inverse ();
   LinearSystem ordered;
   ordered.matrix = system.matrix.twistedBy (place);
   ordered.rhs = place * system.rhs;
-  solveAsItIs (ordered, Ordering::NATURAL, options, run, solution);
+  solveAsItIs (ordered, Ordering::NATURAL);
   if (!solution.problem)
     solution.uv = order * Eigen::MatrixX2d (solution.uv);
   return solution;
