@@ -68,28 +68,6 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
   return points;
 }
 
-// Lays the corners at given positions, and the points between two corners on the side between them.
-// \param corner_points indices of the corners in the loop, ascending
-// \param places        positions of the corners in the plane, anti-clockwise
-std::vector<Vector2d>
-layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& corner_points,
-            const std::vector<Vector2d>& places)
-{
-  std::vector<Vector2d> uv (chords.size ());
-  for (std::size_t c = 0; c < places.size (); ++c) {
-    const std::size_t next = c + 1 == places.size () ? 0 : c + 1;
-    const Vector2d& from = places[c];
-    const Vector2d side = places[next] - from;
-    // The side is a parabola through both corners. Its slope is far smaller than their turns.
-    const Vector2d bulge = 0.5 * SIDE_CURVATURE * side.norm () * Vector2d (side.y (), -side.x ());
-    std::size_t at = corner_points[c];
-    const std::size_t end = corner_points[next] + (next == 0 ? chords.size () : 0);
-    for (const double t : placeOnCurve (chords, at, end, side.norm ()))
-      uv[at++ % chords.size ()] = from + t * side + t * (1.0 - t) * bulge;
-  }
-  return uv;
-}
-
 // Makes weights, lays the loop on a convex curve, and assembles and solves the linear system (TW 385,
 // equations (1) to (3)): the parameters of a disc with a boundary. Stages WEIGHTS and SOLVE.
 // \param stars with their offsets; freed as soon as there are weights
@@ -148,7 +126,7 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
                 : options.loop_spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (step)
                                                                    : step;
   }
-  std::vector<Vector2d> places; // on the unit circle
+  std::vector<Vector2d> places; // on the unit circle: of the points, or of the corners
   const auto addPlace = [&places] (double angle) {
     places.emplace_back (std::cos (angle), std::sin (angle));
   };
@@ -162,7 +140,20 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
   for (std::size_t c = 0; c < corners; ++c)
     addPlace (2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) -
               0.5 * PI);
-  return layOnSides (chords, cornerPoints (chords, corners), places);
+  const std::vector<std::size_t> corner_points = cornerPoints (chords, corners);
+  std::vector<Vector2d> uv (count);
+  for (std::size_t c = 0; c < corners; ++c) {
+    const std::size_t next = c + 1 == corners ? 0 : c + 1;
+    const Vector2d& from = places[c];
+    const Vector2d side = places[next] - from;
+    // The side is a parabola through both corners. Its slope is far smaller than their turns.
+    const Vector2d bulge = 0.5 * SIDE_CURVATURE * side.norm () * Vector2d (side.y (), -side.x ());
+    std::size_t at = corner_points[c];
+    const std::size_t end = corner_points[next] + (next == 0 ? count : 0);
+    for (const double t : placeOnCurve (chords, at, end, side.norm ()))
+      uv[at++ % count] = from + t * side + t * (1.0 - t) * bulge;
+  }
+  return uv;
 }
 
 Flags
