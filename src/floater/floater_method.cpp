@@ -70,16 +70,18 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
 
 // Makes weights, lays the loop on a convex curve, and assembles and solves the linear system (TW 385,
 // equations (1) to (3)): the parameters of a disc with a boundary. Stages WEIGHTS and SOLVE.
-// \param stars with their offsets; freed as soon as there are weights
+// \param stars with their offsets; all but their normals are freed as soon as there are weights
 void
-parameterize (const Positions& positions, Stars stars, const DiscOptions& options,
+parameterize (const Positions& positions, Stars& stars, const DiscOptions& options,
               const RunContext& run, Disc& disc)
 {
   const std::vector<Index>& loop = disc.boundary.loop;
   run.beginStage (Stage::WEIGHTS);
   std::vector<double> weights = computeWeights (stars, options.weighting, run);
   CsrLists neighbors = std::move (stars.neighbors);
+  Normals normals = std::move (stars.normals);
   stars = {};
+  stars.normals = std::move (normals);
 
   const Flags reachable = reachLoop (neighbors, loop, run);
   const auto unreachable =
@@ -206,11 +208,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
-  // The normals are needed longer than the stars.
-  Normals normals = geometry.stars.normals;
-  parameterize (positions, std::move (geometry.stars), options, run, disc);
-  geometry.stars = {};
-  geometry.stars.normals = std::move (normals);
+  parameterize (positions, geometry.stars, options, run, disc);
   if (disc.problem)
     return disc;
 
