@@ -39,67 +39,8 @@ oneMinusCosine (const Vector3d& a, const Vector3d& b)
   return lengths > 0.0 ? 1.0 - a.dot (b) / lengths : 0.0;
 }
 
-class ChartMerger
+struct ChartMerger
 {
-public:
-  ChartMerger (const TriangleMesh& mesh, const Positions& positions,
-               const std::vector<Vector3d>& area_vectors, const MeshComponents& facets, bool halves,
-               const ChartLimits& limits)
-      : mesh_ (mesh), facets_ (facets), limits_ (limits), halves_ (halves), charts_ (facets.count),
-        part_of_ (facets.count), left_ (facets.count)
-  {
-    for (std::size_t d = 0; d < DIRECTIONS; ++d)
-      directions_[d] = spiralDirection (d, DIRECTIONS);
-    std::iota (part_of_.begin (), part_of_.end (), Index{0});
-    for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
-      Chart& chart = charts_[facets.of_triangle[t]];
-      chart.sum += 0.5 * area_vectors[t];
-      ++chart.triangles;
-    }
-    for (Chart& chart : charts_) {
-      chart.area = chart.sum.norm ();
-      std::size_t nearest = 0;
-      for (std::size_t d = 1; d < directions_.size (); ++d)
-        if (directions_[d].dot (chart.sum) > directions_[nearest].dot (chart.sum))
-          nearest = d;
-      chart.facing[static_cast<Eigen::Index> (nearest)] = static_cast<float> (chart.area);
-    }
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const MeshEdge edge{t, side};
-        const Index other = mesh.neighbors[t][side], own = facets.of_triangle[t];
-        const Index beside = other == NONE ? NONE : facets.of_triangle[other];
-        if (beside == own)
-          continue;
-        charts_[own].border.push_back (edge);
-        if (beside == NONE)
-          continue;
-        const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
-        Contact& contact = charts_[own].contacts[beside];
-        contact.length += length;
-        contact.crease += length * oneMinusCosine (charts_[own].sum, charts_[beside].sum);
-        charts_[own].seam += length;
-      }
-  }
-
-  // Joins the facets; to be called once.
-  MeshComponents merged (const RunContext& run)
-  {
-    // At the end, crumbs that remain join the cheapest neighbour.
-    for (const bool is_for_crumbs : {false, true}) {
-      is_for_crumbs_ = is_for_crumbs;
-      for (Index a = 0; a < charts_.size (); ++a)
-        for (const auto& [b, contact] : charts_[a].contacts)
-          offer (a, b);
-      takeOffers (run);
-    }
-    MeshComponents parts = facets_;
-    for (Index& part : parts.of_triangle)
-      part = find (part);
-    return parts;
-  }
-
-private:
   struct Offer
   {
     double cost;
@@ -111,107 +52,170 @@ private:
     }
   };
 
+  const TriangleMesh& mesh;
+  const MeshComponents& facets;
+  const ChartLimits& limits;
+  bool halves; // until there are two, whatever the deviation
+  std::array<Vector3d, DIRECTIONS> directions{};
+  std::vector<Chart> charts = std::vector<Chart> (facets.count);
+  std::vector<Index> part_of =
+      std::vector<Index> (facets.count); // per facet: chart that it was joined to, transitively
+  std::priority_queue<Offer> offers{};
+  std::size_t left = facets.count; // number of charts
+  bool is_for_crumbs = false;
+  std::vector<Index> fan{};
+
+  // Joins the facets; to be called once.
+  MeshComponents merged (const Positions& positions, const std::vector<Vector3d>& area_vectors,
+                         const RunContext& run)
+  {
+    for (std::size_t d = 0; d < DIRECTIONS; ++d)
+      directions[d] = spiralDirection (d, DIRECTIONS);
+    std::iota (part_of.begin (), part_of.end (), Index{0});
+    for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
+      Chart& chart = charts[facets.of_triangle[t]];
+      chart.sum += 0.5 * area_vectors[t];
+      ++chart.triangles;
+    }
+    for (Chart& chart : charts) {
+      chart.area = chart.sum.norm ();
+      std::size_t nearest = 0;
+      for (std::size_t d = 1; d < directions.size (); ++d)
+        if (directions[d].dot (chart.sum) > directions[nearest].dot (chart.sum))
+          nearest = d;
+      chart.facing[static_cast<Eigen::Index> (nearest)] = static_cast<float> (chart.area);
+    }
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const MeshEdge edge{t, side};
+        const Index other = mesh.neighbors[t][side], own = facets.of_triangle[t];
+        const Index beside = other == NONE ? NONE : facets.of_triangle[other];
+        if (beside == own)
+          continue;
+        charts[own].border.push_back (edge);
+        if (beside == NONE)
+          continue;
+        const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
+        Contact& contact = charts[own].contacts[beside];
+        contact.length += length;
+        contact.crease += length * oneMinusCosine (charts[own].sum, charts[beside].sum);
+        charts[own].seam += length;
+      }
+    // At the end, crumbs that remain join the cheapest neighbour.
+    for (const bool is_end : {false, true}) {
+      is_for_crumbs = is_end;
+      for (Index a = 0; a < charts.size (); ++a)
+        for (const auto& [b, contact] : charts[a].contacts)
+          offer (a, b);
+      takeOffers (run);
+    }
+    MeshComponents parts = facets;
+    for (Index& part : parts.of_triangle)
+      part = find (part);
+    return parts;
+  }
+
   Index find (Index facet)
   {
-    while (part_of_[facet] != facet)
-      facet = part_of_[facet] = part_of_[part_of_[facet]];
+    while (part_of[facet] != facet)
+      facet = part_of[facet] = part_of[part_of[facet]];
     return facet;
   }
 
-  Index chartOf (Index t) { return find (facets_.of_triangle[t]); }
+  Index chartOf (Index t) { return find (facets.of_triangle[t]); }
 
   // Deviation and creases.
   double bendOf (Index a, Index b) const
   {
-    const Chart &one = charts_[a], &other = charts_[b];
+    const Chart &one = charts[a], &other = charts[b];
     const double area = one.area + other.area;
     const Vector3d sum = one.sum + other.sum;
     const double deviation = area > 0.0 ? 1.0 - sum.norm () / area : 0.0;
     const Contact& contact = one.contacts.at (b);
     const double crease = contact.length > 0.0 ? contact.crease / contact.length : 0.0;
     const Histogram facing = one.facing + other.facing;
-    const double level = limits_.away_cosine * sum.norm ();
+    const double level = limits.away_cosine * sum.norm ();
     double away = 0.0; // area that is turned away from the sum
-    for (std::size_t d = 0; d < directions_.size (); ++d)
-      if (directions_[d].dot (sum) < level)
+    for (std::size_t d = 0; d < directions.size (); ++d)
+      if (directions[d].dot (sum) < level)
         away += static_cast<double> (facing[static_cast<Eigen::Index> (d)]);
-    return deviation + limits_.crease_weight * crease +
-           limits_.away_weight * (area > 0.0 ? away / area : 0.0);
+    return deviation + limits.crease_weight * crease +
+           limits.away_weight * (area > 0.0 ? away / area : 0.0);
   }
 
   double costOf (Index a, Index b) const
   {
-    const Chart &one = charts_[a], &other = charts_[b];
+    const Chart &one = charts[a], &other = charts[b];
     const double area = one.area + other.area;
     const double seam = one.seam + other.seam - 2.0 * one.contacts.at (b).length;
     const double roundness = area > 0.0 ? seam / (2.0 * std::sqrt (PI * area)) : 0.0;
-    return bendOf (a, b) + limits_.seam_weight * roundness;
+    return bendOf (a, b) + limits.seam_weight * roundness;
   }
 
   bool isAllowed (Index a, Index b) const
   {
-    const Chart &one = charts_[a], &other = charts_[b];
+    const Chart &one = charts[a], &other = charts[b];
     const std::size_t triangles = one.triangles + other.triangles;
-    if (triangles > limits_.most_triangles)
+    if (triangles > limits.most_triangles)
       return false;
-    if (halves_)
+    if (halves)
       return true;
-    if (is_for_crumbs_) {
+    if (is_for_crumbs) {
       const Chart& small = one.area < other.area ? one : other;
-      return small.triangles <= limits_.most_in_crumb &&
-             small.area <= limits_.crumb_share * (one.area + other.area);
+      return small.triangles <= limits.most_in_crumb &&
+             small.area <= limits.crumb_share * (one.area + other.area);
     }
     return bendOf (a, b) <=
-           (triangles <= limits_.large ? limits_.deviation : limits_.deviation_of_large);
+           (triangles <= limits.large ? limits.deviation : limits.deviation_of_large);
   }
 
   void takeOffers (const RunContext& run)
   {
-    ProgressLoop progress (run, charts_.size ());
-    while (!offers_.empty () && left_ > (halves_ ? 2U : 1U)) {
-      const Offer offer = offers_.top ();
-      offers_.pop ();
+    ProgressLoop progress (run, charts.size ());
+    while (!offers.empty () && left > (halves ? 2U : 1U)) {
+      const Offer offer = offers.top ();
+      offers.pop ();
       // One of the charts was joined to another one, or there is a later offer for the two.
-      const auto contact = charts_[offer.a].contacts.find (offer.b);
-      if (contact == charts_[offer.a].contacts.end () || contact->second.offered != offer.cost)
+      const auto contact = charts[offer.a].contacts.find (offer.b);
+      if (contact == charts[offer.a].contacts.end () || contact->second.offered != offer.cost)
         continue;
       // Charts have grown since then, which mostly raises the cost.
       if (costOf (offer.a, offer.b) > offer.cost)
         this->offer (offer.a, offer.b);
       else if (isAllowed (offer.a, offer.b) && makesDisc (offer.a, offer.b)) {
         join (offer.a, offer.b);
-        --left_;
+        --left;
         progress.next ();
       }
     }
-    offers_ = {};
+    offers = {};
   }
 
   void offer (Index a, Index b)
   {
     const double cost = costOf (a, b);
-    charts_[a].contacts.at (b).offered = charts_[b].contacts.at (a).offered = cost;
-    offers_.push ({cost, std::min (a, b), std::max (a, b)});
+    charts[a].contacts.at (b).offered = charts[b].contacts.at (a).offered = cost;
+    offers.push ({cost, std::min (a, b), std::max (a, b)});
   }
 
   // Whether the union of two discs is a disc: their common border must be connected and not closed,
   // so it has one vertex more than edges. O(boundary of the shorter one).
   bool makesDisc (Index a, Index b)
   {
-    if (charts_[a].border.size () > charts_[b].border.size ())
+    if (charts[a].border.size () > charts[b].border.size ())
       std::swap (a, b);
-    std::vector<MeshEdge>& border = charts_[a].border;
+    std::vector<MeshEdge>& border = charts[a].border;
     std::size_t points = 0, edges = 0, kept = 0;
     for (const MeshEdge edge : border) {
-      const Index other = mesh_.neighbors[edge.triangle][edge.side];
+      const Index other = mesh.neighbors[edge.triangle][edge.side];
       const Index beyond = other == NONE ? NONE : chartOf (other);
       if (beyond == a)
         continue;
       border[kept++] = edge;
       edges += beyond == b ? 1 : 0;
-      mesh_.fan (mesh_.from (edge), fan_);
+      mesh.fan (mesh.from (edge), fan);
       points +=
-          std::any_of (fan_.begin (), fan_.end (), [this, b] (Index t) { return chartOf (t) == b; })
+          std::any_of (fan.begin (), fan.end (), [this, b] (Index t) { return chartOf (t) == b; })
               ? 1
               : 0;
     }
@@ -222,12 +226,12 @@ private:
   // Joins the chart with fewer neighbours to the other one, which keeps its number.
   void join (Index a, Index b)
   {
-    if (charts_[a].contacts.size () > charts_[b].contacts.size ())
+    if (charts[a].contacts.size () > charts[b].contacts.size ())
       std::swap (a, b);
-    part_of_[a] = b;
-    Chart small = std::move (charts_[a]);
-    charts_[a] = {};
-    Chart& large = charts_[b];
+    part_of[a] = b;
+    Chart small = std::move (charts[a]);
+    charts[a] = {};
+    Chart& large = charts[b];
     large.seam += small.seam - 2.0 * small.contacts.at (b).length;
     large.sum += small.sum;
     large.facing += small.facing;
@@ -242,24 +246,12 @@ private:
       Contact& to = large.contacts[c];
       to.length += contact.length;
       to.crease += contact.crease;
-      charts_[c].contacts.erase (a);
-      charts_[c].contacts[b] = to;
+      charts[c].contacts.erase (a);
+      charts[c].contacts[b] = to;
     }
     for (const auto& [c, contact] : small.contacts)
       offer (b, c);
   }
-
-  const TriangleMesh& mesh_;
-  const MeshComponents& facets_;
-  const ChartLimits& limits_;
-  std::array<Vector3d, DIRECTIONS> directions_;
-  bool halves_; // until there are two, whatever the deviation
-  std::vector<Chart> charts_;
-  std::vector<Index> part_of_; // per facet: chart that it was joined to, transitively
-  std::priority_queue<Offer> offers_;
-  std::size_t left_; // number of charts
-  bool is_for_crumbs_ = false;
-  std::vector<Index> fan_;
 };
 
 // Moves triangles with two edges on a seam to the chart beyond it where this shortens the seam. Charts
@@ -339,7 +331,7 @@ findCharts (const TriangleMesh& mesh, const Positions& positions, bool halves,
   const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
   const MeshComponents facets = growFacets (mesh, positions, area_vectors, limits, run);
   MeshComponents charts =
-      ChartMerger (mesh, positions, area_vectors, facets, halves, limits).merged (run);
+      ChartMerger{mesh, facets, limits, halves}.merged (positions, area_vectors, run);
   straightenSeams (mesh, positions, area_vectors, limits, run, charts);
   // Numbers the charts in the order of their first triangles.
   std::vector<Index> number (charts.count, NONE);
