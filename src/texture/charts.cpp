@@ -58,8 +58,8 @@ struct ChartMerger
   bool halves; // until there are two, whatever the deviation
   std::array<Vector3d, DIRECTIONS> directions{};
   std::vector<Chart> charts = std::vector<Chart> (facets.count);
-  std::vector<Index> part_of =
-      std::vector<Index> (facets.count); // per facet: chart that it was joined to, transitively
+  // Per facet: chart that it was joined to, transitively.
+  std::vector<Index> part_of = std::vector<Index> (facets.count);
   std::priority_queue<Offer> offers{};
   std::size_t left = facets.count; // number of charts
   bool is_for_crumbs = false;
