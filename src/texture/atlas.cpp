@@ -292,20 +292,6 @@ turnAndScale (ChartLayout& chart, double area, double longest)
     p = factor * p - factor * box.min ();
 }
 
-// Rotates by quarter turns anti-clockwise, in a box of whole cells that stays at the origin.
-void
-turnQuarters (std::vector<Vector2d>& uv, int quarters)
-{
-  Vector2d size = Vector2d::Zero ();
-  for (const Vector2d& p : uv)
-    size = size.cwiseMax (p.array ().floor ().matrix () + Vector2d::Ones ());
-  for (int q = 0; q < quarters; ++q) {
-    for (Vector2d& p : uv)
-      p = Vector2d (size.y () - p.y (), p.x ());
-    std::swap (size.x (), size.y ());
-  }
-}
-
 } // namespace
 
 double
@@ -337,7 +323,15 @@ packCharts (std::vector<ChartLayout>& charts, const RunContext& run)
   const auto side = static_cast<double> (packed.second);
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     const auto& [x, y, quarters] = packed.first[c];
-    turnQuarters (charts[c].uv, quarters);
+    // Rotates by quarter turns anti-clockwise, in a box of whole cells that stays at the origin.
+    Vector2d size = Vector2d::Zero ();
+    for (const Vector2d& p : charts[c].uv)
+      size = size.cwiseMax (p.array ().floor ().matrix () + Vector2d::Ones ());
+    for (int q = 0; q < quarters; ++q) {
+      for (Vector2d& p : charts[c].uv)
+        p = Vector2d (size.y () - p.y (), p.x ());
+      std::swap (size.x (), size.y ());
+    }
     const Vector2d corner (static_cast<double> (x + 1), static_cast<double> (y + 1));
     for (Vector2d& p : charts[c].uv)
       p = (p + corner) / side;

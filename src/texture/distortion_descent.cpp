@@ -68,21 +68,6 @@ struct Descent
   const MeshPiece& chart;
   const RestShapes& rest;
 
-  // Scales to least energy.
-  void scale (Coordinates& x) const
-  {
-    double direct = 0.0, inverse = 0.0;
-    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
-      const Eigen::Matrix2d map = edgesOf (x, chart.mesh.triangles[t]) * rest.shapes[t].to_unit;
-      const double squares = map.squaredNorm (), determinant = map.determinant ();
-      direct += rest.shapes[t].area * squares;
-      inverse += rest.shapes[t].area * squares / (determinant * determinant);
-    }
-    const double factor = std::sqrt (std::sqrt (inverse / direct));
-    if (std::isfinite (factor) && factor > 0.0)
-      x *= factor;
-  }
-
   // A step along a direction that lowers the energy enough. Returns false if there is none.
   // \param[in,out] x, energy set to the end of the step
   bool goAlong (const Coordinates& direction, const Coordinates& gradient, Coordinates& x,
@@ -275,7 +260,17 @@ descendDistortion (const MeshPiece& chart, const RestShapes& rest, const Descent
   const Descent descent{chart, rest};
   const auto vertices = static_cast<Eigen::Index> (uv.size ());
   Coordinates x = Eigen::Map<const Coordinates> (uv.front ().data (), vertices, 2);
-  descent.scale (x);
+  // Scales to least energy.
+  double direct = 0.0, inverse = 0.0;
+  for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+    const Eigen::Matrix2d map = edgesOf (x, chart.mesh.triangles[t]) * rest.shapes[t].to_unit;
+    const double squares = map.squaredNorm (), determinant = map.determinant ();
+    direct += rest.shapes[t].area * squares;
+    inverse += rest.shapes[t].area * squares / (determinant * determinant);
+  }
+  const double factor = std::sqrt (std::sqrt (inverse / direct));
+  if (std::isfinite (factor) && factor > 0.0)
+    x *= factor;
   const auto accept = [&] {
     std::vector<Vector2d> next (uv.size ());
     Eigen::Map<Coordinates> (next.front ().data (), vertices, 2) = x;
