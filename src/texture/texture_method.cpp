@@ -157,23 +157,6 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
   return result;
 }
 
-Problem
-checkMesh (const Positions& positions, const std::vector<Triangle>& triangles)
-{
-  for (const Triangle& t : triangles)
-    for (const Index p : t) {
-      if (p >= positions.size ())
-        return {RunStatus::INVALID_INDICES, "a triangle names point " + std::to_string (p) +
-                                                ", but there are only " +
-                                                std::to_string (positions.size ()) + " points"};
-      if (!positions[p].allFinite ())
-        return {RunStatus::INVALID_INDICES, "point " + std::to_string (p) +
-                                                " of a triangle has no finite position; texture "
-                                                "coordinates need one for each vertex"};
-    }
-  return {};
-}
-
 // Coordinates by point, then by chart, so that the coordinates of a point are adjacent.
 void
 takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std::size_t triangles,
@@ -216,8 +199,19 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
     return {RunStatus::INVALID_OPTION, "the largest stretch of a chart must be 1 or more"};
   if (options.threads < 0)
     return {RunStatus::INVALID_OPTION, "the number of threads must be 0 or more"};
-  if (Problem problem = checkMesh (positions, triangles))
-    return problem;
+  double largest = 0.0; // coordinate
+  for (const Triangle& t : triangles)
+    for (const Index p : t) {
+      if (p >= positions.size ())
+        return {RunStatus::INVALID_INDICES, "a triangle names point " + std::to_string (p) +
+                                                ", but there are only " +
+                                                std::to_string (positions.size ()) + " points"};
+      if (!positions[p].allFinite ())
+        return {RunStatus::INVALID_INDICES, "point " + std::to_string (p) +
+                                                " of a triangle has no finite position; texture "
+                                                "coordinates need one for each vertex"};
+      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
+    }
   TriangleMesh mesh;
   mesh.triangles = triangles;
   if (!mesh.connect (positions.size (), run))
@@ -227,10 +221,6 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
 
   // Scaled by a power of two to about 1, if there are triangles: squares and cubes of lengths are
   // finite then. Points without a triangle stay as they are.
-  double largest = 0.0;
-  for (const Triangle& t : triangles)
-    for (const Index p : t)
-      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
   const double unit = largest > 0.0 ? std::ldexp (1.0, std::ilogb (largest)) : 1.0;
   Positions places = positions;
   for (Vector3d& place : places)
