@@ -112,24 +112,20 @@ blasFunction (const char* name)
   return reinterpret_cast<Function> (dlsym (RTLD_DEFAULT, name));
 }
 
-// OpenBLAS maps a work buffer at its first use, and retries forever if memory is short.
-bool
-hasRoomForBuffer ()
-{
-  constexpr std::size_t BUFFER_BYTES = std::size_t{128} << 20; // of OpenBLAS 0.3 on x86-64
-  void* const room = mmap (nullptr, BUFFER_BYTES, PROT_READ | PROT_WRITE,
-                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  return room != MAP_FAILED && munmap (room, BUFFER_BYTES) == 0;
-}
-
 } // namespace
 
 SingleBlasThread::SingleBlasThread ()
 {
   const auto get = blasFunction<Get> ("openblas_get_num_threads");
   const auto set = blasFunction<Set> ("openblas_set_num_threads");
-  if (set != nullptr && !hasRoomForBuffer ())
-    throw std::bad_alloc ();
+  if (set != nullptr) {
+    // OpenBLAS maps a work buffer at its first use, and retries forever if memory is short.
+    constexpr std::size_t BUFFER_BYTES = std::size_t{128} << 20; // of OpenBLAS 0.3 on x86-64
+    void* const room = mmap (nullptr, BUFFER_BYTES, PROT_READ | PROT_WRITE,
+                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED || munmap (room, BUFFER_BYTES) != 0)
+      throw std::bad_alloc ();
+  }
   const std::lock_guard<std::mutex> lock (blas_mutex);
   if (blas_users++ > 0 || get == nullptr || set == nullptr)
     return;
