@@ -183,8 +183,6 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
   return reachable;
 }
 
-// The stages of TW 385 in order, with its sections and equations.
-
 Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run)
