@@ -10,6 +10,33 @@
 
 namespace pcl::floater {
 namespace {
+// Largest mean of 1 - cos of the angles to the mean normal of a chart, plus the costs of creases and of
+// area that is turned away: half a sphere has 0.5, half a tube 0.36. More can hardly be flattened.
+constexpr double DEVIATION = 0.5;
+
+// The same for charts of more than LARGE triangles. A cap of 60 degrees of a sphere has 0.25: it can be
+// projected, which is a good start for its layout. Without it, the layout takes ten times as long.
+constexpr double DEVIATION_OF_LARGE = 0.25;
+constexpr std::size_t LARGE = 1000;
+
+// Cosine below which area counts as turned away from the mean normal of its chart: 80 degrees. And the
+// cost of the share of such area, in deviations: a twentieth takes up half of the limit. A chart that
+// hides a piece of itself cannot be projected.
+constexpr double AWAY_COSINE = 0.17, AWAY_WEIGHT = 5.0;
+
+// Cost of a crease of a right angle, in deviations: a quarter turn of one side adds as much as the
+// deviation of two flat sides (1 - cos 45 degrees, 0.29), so joining two faces of a box exceeds 0.5.
+constexpr double CREASE_WEIGHT = 0.25;
+
+// Cost of a seam as long as the border of a disc of the same area, in deviations. Decisive on flat
+// surfaces only.
+constexpr double SEAM_WEIGHT = 0.05;
+
+// A chart with so few triangles, and with less than this share of the joint area, is joined to a
+// neighbouring chart at the end, however it bends: alone it would waste space in the texture.
+constexpr std::size_t MOST_IN_CRUMB = 16;
+constexpr double CRUMB_SHARE = 0.1;
+
 // Common border of two charts.
 struct Contact
 {
@@ -55,7 +82,6 @@ struct ChartMerger
   const TriangleMesh& mesh;
   const MeshComponents& facets;
   const ChartLimits& limits;
-  bool halves; // until there are two, whatever the deviation
   std::array<Vector3d, DIRECTIONS> directions{};
   std::vector<Chart> charts = std::vector<Chart> (facets.count);
   // Per facet: chart that it was joined to, transitively.
@@ -134,13 +160,12 @@ struct ChartMerger
     const Contact& contact = one.contacts.at (b);
     const double crease = contact.length > 0.0 ? contact.crease / contact.length : 0.0;
     const Histogram facing = one.facing + other.facing;
-    const double level = limits.away_cosine * sum.norm ();
+    const double level = AWAY_COSINE * sum.norm ();
     double away = 0.0; // area that is turned away from the sum
     for (std::size_t d = 0; d < directions.size (); ++d)
       if (directions[d].dot (sum) < level)
         away += static_cast<double> (facing[static_cast<Eigen::Index> (d)]);
-    return deviation + limits.crease_weight * crease +
-           limits.away_weight * (area > 0.0 ? away / area : 0.0);
+    return deviation + CREASE_WEIGHT * crease + AWAY_WEIGHT * (area > 0.0 ? away / area : 0.0);
   }
 
   double costOf (Index a, Index b) const
@@ -149,7 +174,7 @@ struct ChartMerger
     const double area = one.area + other.area;
     const double seam = one.seam + other.seam - 2.0 * one.contacts.at (b).length;
     const double roundness = area > 0.0 ? seam / (2.0 * std::sqrt (PI * area)) : 0.0;
-    return bendOf (a, b) + limits.seam_weight * roundness;
+    return bendOf (a, b) + SEAM_WEIGHT * roundness;
   }
 
   bool isAllowed (Index a, Index b) const
@@ -158,21 +183,20 @@ struct ChartMerger
     const std::size_t triangles = one.triangles + other.triangles;
     if (triangles > limits.most_triangles)
       return false;
-    if (halves)
+    if (limits.halves)
       return true;
     if (is_for_crumbs) {
       const Chart& small = one.area < other.area ? one : other;
-      return small.triangles <= limits.most_in_crumb &&
-             small.area <= limits.crumb_share * (one.area + other.area);
+      return small.triangles <= MOST_IN_CRUMB &&
+             small.area <= CRUMB_SHARE * (one.area + other.area);
     }
-    return bendOf (a, b) <=
-           (triangles <= limits.large ? limits.deviation : limits.deviation_of_large);
+    return bendOf (a, b) <= (triangles <= LARGE ? DEVIATION : DEVIATION_OF_LARGE);
   }
 
   void takeOffers (const RunContext& run)
   {
     ProgressLoop progress (run, charts.size ());
-    while (!offers.empty () && left > (halves ? 2U : 1U)) {
+    while (!offers.empty () && left > (limits.halves ? 2U : 1U)) {
       const Offer offer = offers.top ();
       offers.pop ();
       // One of the charts was joined to another one, or there is a later offer for the two.
@@ -214,10 +238,8 @@ struct ChartMerger
       border[kept++] = edge;
       edges += beyond == b ? 1 : 0;
       mesh.fan (mesh.from (edge), fan);
-      points +=
-          std::any_of (fan.begin (), fan.end (), [this, b] (Index t) { return chartOf (t) == b; })
-              ? 1
-              : 0;
+      if (std::any_of (fan.begin (), fan.end (), [&] (Index t) { return chartOf (t) == b; }))
+        ++points;
     }
     border.resize (kept);
     return points == edges + 1;
@@ -258,15 +280,18 @@ struct ChartMerger
 // stay discs, and none vanishes.
 void
 straightenSeams (const TriangleMesh& mesh, const Positions& positions,
-                 const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
-                 const RunContext& run, MeshComponents& charts)
+                 const std::vector<Vector3d>& area_vectors, const RunContext& run,
+                 MeshComponents& charts)
 {
+  // Weight of a seam along a sharp crease relative to one across a flat region: seams stay on creases.
+  constexpr double LEAST_WEIGHT = 0.1;
+  constexpr int ROUNDS_AT_MOST = 8; // it ends when nothing changes
   // Weight of a seam along an edge.
   const auto weight = [&] (MeshEdge edge) {
     const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
     const Index other = mesh.neighbors[edge.triangle][edge.side];
     const double cosine = 1.0 - oneMinusCosine (area_vectors[edge.triangle], area_vectors[other]);
-    return length * std::max (limits.least_seam_weight, cosine);
+    return length * std::max (LEAST_WEIGHT, cosine);
   };
   std::vector<Index> fan;
   // Returns whether the triangle was moved.
@@ -308,7 +333,7 @@ straightenSeams (const TriangleMesh& mesh, const Positions& positions,
         waiting.push_back (t);
         break;
       }
-  for (int round = 0; round < limits.straightening_rounds && !waiting.empty (); ++round) {
+  for (int round = 0; round < ROUNDS_AT_MOST && !waiting.empty (); ++round) {
     ProgressLoop progress (run, waiting.size ());
     std::vector<Index> next;
     for (const Index t : waiting) {
@@ -325,14 +350,13 @@ straightenSeams (const TriangleMesh& mesh, const Positions& positions,
 } // namespace
 
 MeshComponents
-findCharts (const TriangleMesh& mesh, const Positions& positions, bool halves,
-            const ChartLimits& limits, const RunContext& run)
+findCharts (const TriangleMesh& mesh, const Positions& positions, const ChartLimits& limits,
+            const RunContext& run)
 {
   const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
   const MeshComponents facets = growFacets (mesh, positions, area_vectors, limits, run);
-  MeshComponents charts =
-      ChartMerger{mesh, facets, limits, halves}.merged (positions, area_vectors, run);
-  straightenSeams (mesh, positions, area_vectors, limits, run, charts);
+  MeshComponents charts = ChartMerger{mesh, facets, limits}.merged (positions, area_vectors, run);
+  straightenSeams (mesh, positions, area_vectors, run, charts);
   // Numbers the charts in the order of their first triangles.
   std::vector<Index> number (charts.count, NONE);
   charts.count = 0;

@@ -18,6 +18,9 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
             const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run)
 {
+  // Largest angle between a triangle and the mean normal of its facet, as 1 - cos: 25 degrees, below
+  // the edges of machined parts (30 and more) and above the curvature of good samplings.
+  constexpr double MOST_DEVIATION = 0.1;
   // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
   // deviation: in flat regions, facets become round.
   constexpr double ROUNDNESS = 0.01;
@@ -61,7 +64,7 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
     for (const Index t : border) {
       const double lengths = sum.norm () * area_vectors[t].norm ();
       const double deviation = lengths > 0.0 ? 1.0 - sum.dot (area_vectors[t]) / lengths : 0.0;
-      if (deviation > limits.facet_deviation)
+      if (deviation > MOST_DEVIATION)
         continue;
       const Vector3d own = middleOf (mesh.triangles[t], positions);
       const double distance = area > 0.0 ? (own - middle / area).squaredNorm () / area : 0.0;

@@ -64,12 +64,14 @@ struct ChartCutter
       result.push_back (std::move (chart));
       return;
     }
-    ChartLimits halves;
-    halves.facets = std::min (halves.facets, std::max (LEAST_FACETS, size / TRIANGLES_PER_FACET));
-    halves.most_triangles =
+    ChartLimits limits_of_parts;
+    limits_of_parts.halves = true;
+    limits_of_parts.facets =
+        std::min (limits_of_parts.facets, std::max (LEAST_FACETS, size / TRIANGLES_PER_FACET));
+    limits_of_parts.most_triangles =
         std::max<std::size_t> (1, static_cast<std::size_t> (HALF * static_cast<double> (size)));
-    std::vector<std::vector<Index>> parts = listsOf (
-        findCharts (chart.chart.mesh, valuesAt (positions, chart.chart.points), true, halves, run));
+    std::vector<std::vector<Index>> parts = listsOf (findCharts (
+        chart.chart.mesh, valuesAt (positions, chart.chart.points), limits_of_parts, run));
     for (std::vector<Index>& part : parts)
       part = valuesAt (chart.triangles, part);
     chart = {};
@@ -142,7 +144,7 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
     });
   }
   run.beginStep (0.1);
-  const std::vector<std::vector<Index>> lists = listsOf (findCharts (mesh, smooth, false, {}, run));
+  const std::vector<std::vector<Index>> lists = listsOf (findCharts (mesh, smooth, {}, run));
   run.beginStep (0.95);
   const ChartCutter by_smooth{mesh, smooth, largest_stretch, {}, within};
   const ChartCutter by_true{mesh, positions, std::max (largest_stretch, TOO_MUCH), {}, within};

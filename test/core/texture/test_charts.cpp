@@ -169,8 +169,10 @@ TEST (ChartLayout, NothingLiesAboveItself)
 TEST (Charts, AreCutInTwoIfTheyHaveToBe)
 {
   const Mesh sheet = samples::sheet (10);
-  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, false, {}, 1).count, 1U);
-  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, true, {}, 1).count, 2U);
+  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, {}, 1).count, 1U);
+  ChartLimits limits;
+  limits.halves = true;
+  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, limits, 1).count, 2U);
 }
 
 // Facets of several triangles, as large meshes have them.
@@ -211,7 +213,7 @@ TEST (Smoothing, MovesNoiseOnly)
   Positions smooth = smoothNoise (connected (noisy), noisy.positions, 1);
   EXPECT_LT (sumOfSquares (smooth), 0.25 * sumOfSquares (noisy.positions));
   // So it is one chart, or few.
-  EXPECT_LE (findCharts (connected (noisy), smooth, false, {}, 1).count, 2U);
+  EXPECT_LE (findCharts (connected (noisy), smooth, {}, 1).count, 2U);
   // A vertex of one triangle, at a corner, does not come to lie between its neighbours.
   noisy = noisySheet (12, 0.1, 5);
   smooth = smoothNoise (connected (noisy), noisy.positions, 1);
