@@ -105,12 +105,8 @@ orderUnknowns (const SystemMatrix& matrix, Ordering ordering)
 
 using Vector = Eigen::VectorXd;
 
-// Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the
-// residual and the pivots.
-
-class IncompleteFactors : public Eigen::IncompleteLUT<double>
+struct IncompleteFactors : Eigen::IncompleteLUT<double>
 {
-public:
   std::size_t nonZeros () const { return static_cast<std::size_t> (m_lu.nonZeros ()); }
 };
 
@@ -130,7 +126,8 @@ struct Preconditioner : Eigen::IdentityPreconditioner
 // BiCGSTAB (van der Vorst 1992) with Eigen's IncompleteLUT: one incomplete factorization, then each
 // coordinate by itself. The residual that BiCGSTAB updates drifts away from the true one. So the true
 // one is measured when it stops, and it starts again on what is left until the tolerance is reached,
-// the iterations of all rounds are used up, or a round does not halve the residual.
+// the iterations of all rounds are used up, or a round does not halve the residual. Fills `uv` and the
+// figures of the solution; conclude () looks at them.
 void
 solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run,
                    Solution& solution)
