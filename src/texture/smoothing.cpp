@@ -94,8 +94,7 @@ smoothNoise (const TriangleMesh& mesh, const Positions& original, const RunConte
       });
     }
   };
-  // The mean of the neighbours; at the boundary, of those along it. A vertex of one triangle would
-  // get between these, and moves with them instead.
+  // A vertex of one triangle would get between its neighbours, and moves with them instead.
   const auto targetOf = [&] (const Positions& positions, Index p) -> Vector3d {
     const Vector3d mean = rings.meanAround (positions, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
