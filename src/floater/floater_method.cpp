@@ -68,40 +68,20 @@ cornerPoints (const std::vector<double>& chords, std::size_t corners)
   return points;
 }
 
-// Lays the corners at given positions, and the points between two corners on the side between them.
-// \param corner_points indices of the corners in the loop, ascending
-// \param places        positions of the corners in the plane, anti-clockwise
-std::vector<Vector2d>
-layOnSides (const std::vector<double>& chords, const std::vector<std::size_t>& corner_points,
-            const std::vector<Vector2d>& places)
-{
-  std::vector<Vector2d> uv (chords.size ());
-  for (std::size_t c = 0; c < places.size (); ++c) {
-    const std::size_t next = c + 1 == places.size () ? 0 : c + 1;
-    const Vector2d& from = places[c];
-    const Vector2d side = places[next] - from;
-    // The side is a parabola through both corners. Its slope is far smaller than their turns.
-    const Vector2d bulge = 0.5 * SIDE_CURVATURE * side.norm () * Vector2d (side.y (), -side.x ());
-    std::size_t at = corner_points[c];
-    const std::size_t end = corner_points[next] + (next == 0 ? chords.size () : 0);
-    for (const double t : placeOnCurve (chords, at, end, side.norm ()))
-      uv[at++ % chords.size ()] = from + t * side + t * (1.0 - t) * bulge;
-  }
-  return uv;
-}
-
 // Makes weights, lays the loop on a convex curve, and assembles and solves the linear system (TW 385,
 // equations (1) to (3)): the parameters of a disc with a boundary. Stages WEIGHTS and SOLVE.
-// \param stars with their offsets; freed as soon as there are weights
+// \param stars with their offsets; all but their normals are freed as soon as there are weights
 void
-parameterize (const Positions& positions, Stars stars, const DiscOptions& options,
+parameterize (const Positions& positions, Stars& stars, const DiscOptions& options,
               const RunContext& run, Disc& disc)
 {
   const std::vector<Index>& loop = disc.boundary.loop;
   run.beginStage (Stage::WEIGHTS);
   std::vector<double> weights = computeWeights (stars, options.weighting, run);
   CsrLists neighbors = std::move (stars.neighbors);
+  Normals normals = std::move (stars.normals);
   stars = {};
+  stars.normals = std::move (normals);
 
   const Flags reachable = reachLoop (neighbors, loop, run);
   const auto unreachable =
@@ -148,7 +128,7 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
                 : options.loop_spacing == LoopSpacing::CENTRIPETAL ? std::sqrt (step)
                                                                    : step;
   }
-  std::vector<Vector2d> places; // on the unit circle
+  std::vector<Vector2d> places; // on the unit circle: of the points, or of the corners
   const auto addPlace = [&places] (double angle) {
     places.emplace_back (std::cos (angle), std::sin (angle));
   };
@@ -162,7 +142,20 @@ layLoop (const Positions& positions, const std::vector<Index>& loop, const Domai
   for (std::size_t c = 0; c < corners; ++c)
     addPlace (2.0 * PI * (static_cast<double> (c) - 0.5) / static_cast<double> (corners) -
               0.5 * PI);
-  return layOnSides (chords, cornerPoints (chords, corners), places);
+  const std::vector<std::size_t> corner_points = cornerPoints (chords, corners);
+  std::vector<Vector2d> uv (count);
+  for (std::size_t c = 0; c < corners; ++c) {
+    const std::size_t next = c + 1 == corners ? 0 : c + 1;
+    const Vector2d& from = places[c];
+    const Vector2d side = places[next] - from;
+    // The side is a parabola through both corners. Its slope is far smaller than their turns.
+    const Vector2d bulge = 0.5 * SIDE_CURVATURE * side.norm () * Vector2d (side.y (), -side.x ());
+    std::size_t at = corner_points[c];
+    const std::size_t end = corner_points[next] + (next == 0 ? count : 0);
+    for (const double t : placeOnCurve (chords, at, end, side.norm ()))
+      uv[at++ % count] = from + t * side + t * (1.0 - t) * bulge;
+  }
+  return uv;
 }
 
 Flags
@@ -190,8 +183,6 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
   return reachable;
 }
 
-// The stages of TW 385 in order, with its sections and equations.
-
 Disc
 makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
           const DiscSettings& settings, const RunContext& run)
@@ -215,11 +206,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
-  // The normals are needed longer than the stars.
-  Normals normals = geometry.stars.normals;
-  parameterize (positions, std::move (geometry.stars), options, run, disc);
-  geometry.stars = {};
-  geometry.stars.normals = std::move (normals);
+  parameterize (positions, geometry.stars, options, run, disc);
   if (disc.problem)
     return disc;
 

@@ -49,9 +49,8 @@ struct Disc
 {
   Boundary boundary;
   SystemStatistics figures; ///< of the linear system
-  std::vector<Vector2d>
-      uv; ///< per point: parameters; NaN if it is not connected with the loop; empty
-          ///< if there are none
+  std::vector<Vector2d> uv; ///< per point: parameters; NaN if it is not connected with the loop;
+                            ///< empty if there are none
   TriangleMesh mesh;
   MeshFinish finish;
   Problem problem;

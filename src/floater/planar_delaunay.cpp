@@ -10,16 +10,6 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 namespace pcl::floater {
-namespace {
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
-using Delaunay =
-    CGAL::Delaunay_triangulation_2<Kernel,
-                                   CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
-
-} // namespace
-
 TriangleMesh
 triangulatePlane (std::vector<Vector2d> uv, const std::vector<Index>& loop)
 {
@@ -56,12 +46,16 @@ triangulatePlane (std::vector<Vector2d> uv, const std::vector<Index>& loop)
 TriangleMesh
 triangulateHull (const std::vector<Vector2d>& uv)
 {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+  using FaceBase = CGAL::Triangulation_face_base_with_info_2<Index, Kernel>;
+  using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
   std::vector<std::pair<Kernel::Point_2, Index>> sites;
   sites.reserve (uv.size ());
   for (Index p = 0; p < uv.size (); ++p)
     if (uv[p].allFinite ())
       sites.emplace_back (Kernel::Point_2 (uv[p].x (), uv[p].y ()), p);
-  Delaunay delaunay (sites.begin (), sites.end ());
+  CGAL::Delaunay_triangulation_2<Kernel, Structure> delaunay (sites.begin (), sites.end ());
   TriangleMesh mesh;
   mesh.triangle_of.assign (uv.size (), NONE);
   if (delaunay.dimension () < 2)

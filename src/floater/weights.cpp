@@ -87,12 +87,11 @@ shareInDirections (const LocalStar& star, double* weights)
   }
 }
 
-// Equation (2).
+// Equation (2). \param[in,out] weights all 0 before
 void
 meanValue (const LocalStar& star, double* weights)
 {
   const std::size_t count = star.size ();
-  std::fill (weights, weights + count, 0.0);
   bool shared_direction = false;
   for (std::size_t i = 0; i < (star.closed ? count : count - 1); ++i) {
     const std::size_t j = i + 1 == count ? 0 : i + 1;
@@ -111,11 +110,11 @@ meanValue (const LocalStar& star, double* weights)
 // That edge and the neighbour make a triangle around the centre. The weights are the barycentric
 // coordinates of the centre in these triangles, averaged over the neighbours. The edge goes round
 // once while the neighbour does, so this takes linear time.
+// \param[in,out] weights all 0 before
 void
 shapePreserving (const LocalStar& star, double* weights)
 {
   const std::size_t count = star.size ();
-  std::fill (weights, weights + count, 0.0);
   const auto isBefore = [&] (std::size_t i, std::size_t j) {
     // True if j is still on the near side of the line through i and the centre.
     const double sine = cross (star.directions[i], star.directions[j]);
@@ -156,7 +155,7 @@ shapePreserving (const LocalStar& star, double* weights)
   }
 }
 
-// Makes the weights of a star positive, with sum 1.
+// Makes the weights of a star positive, with sum 1; equal if they are all 0.
 void
 normalize (double* weights, std::size_t count)
 {
@@ -174,20 +173,6 @@ normalize (double* weights, std::size_t count)
     weights[i] /= sum;
 }
 
-void
-weighStar (const LocalStar& star, Weighting weighting, double* weights)
-{
-  if (weighting == Weighting::UNIFORM)
-    std::fill (weights, weights + star.size (), 1.0);
-  else if (weighting == Weighting::INVERSE_DISTANCE)
-    std::transform (star.lengths.begin (), star.lengths.end (), weights,
-                    [] (double length) { return 1.0 / length; });
-  else if (weighting == Weighting::SHAPE_PRESERVING && star.closed && star.size () >= 3)
-    shapePreserving (star, weights);
-  else
-    meanValue (star, weights);
-}
-
 } // namespace
 
 std::vector<double>
@@ -199,9 +184,17 @@ computeWeights (const Stars& stars, Weighting weighting, const RunContext& run)
     if (count == 0)
       return;
     double* row = weights.data () + first;
-    if (star.assign (stars.offsets_in_plane.data () + first, count, stars.open[p] == 0))
-      weighStar (star, weighting, row);
-    normalize (row, count); // the weights of a star without extent are all 0
+    if (weighting != Weighting::UNIFORM &&
+        star.assign (stars.offsets_in_plane.data () + first, count, stars.open[p] == 0)) {
+      if (weighting == Weighting::INVERSE_DISTANCE)
+        std::transform (star.lengths.begin (), star.lengths.end (), row,
+                        [] (double length) { return 1.0 / length; });
+      else if (weighting == Weighting::SHAPE_PRESERVING && star.closed && count >= 3)
+        shapePreserving (star, row);
+      else
+        meanValue (star, row);
+    }
+    normalize (row, count);
   });
   return weights;
 }

@@ -1,16 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/atlas.h"
-
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "texture/chart_layout.h"
 
 #include <boost/icl/interval_set.hpp>
 
 namespace pcl::floater {
 namespace {
+// Packing cells along the side of the square. Charts are 2 cells apart: 4 pixels of a texture of 2048,
+// enough for two levels of a mipmap.
+constexpr double LEAST_CELLS = 1024.0;
+
+// For many charts: cells along the side, for each square root of their number. A chart of one triangle
+// takes at least 3 x 3.
+constexpr double CELLS_PER_CHART = 12.0;
+
+constexpr double FIRST_FILL = 0.75; // share of the square to be covered in the first attempt
+constexpr int MOST_WIDTHS = 4;      // tried for the square
+
 // Cells of a row, from a first one up to, and without, an end.
 using Cells = boost::icl::right_open_interval<Index>;
 
@@ -59,18 +69,18 @@ extentBetween (const std::array<Vector2d, 3>& corners, double low, double high)
 }
 
 // A strip of cells of a given width and any height.
-class Strip
+struct Strip
 {
   using CellRow = boost::icl::interval_set<Index, std::less, Cells>;
 
-public:
-  explicit Strip (Index width) : width_ (width) {}
+  Index width;
+  std::vector<CellRow> rows{}; // occupied cells
+  std::size_t work = 0;        // rows of shapes that were looked at
 
   // The lowest free position of a shape from a row on, then the leftmost one; in row `end` if there
   // is none below. For shapes that are not wider than the strip.
-  CellPlace findPlace (const CellMask& shape, CellPlace from, std::size_t end)
+  CellPlace findPlace (const CellMask& shape, CellPlace place, std::size_t end)
   {
-    CellPlace place = from;
     while (place.y < end && !moveToFree (shape, place))
       place = {0, place.y + 1};
     return place;
@@ -78,29 +88,24 @@ public:
 
   void occupy (const CellMask& shape, const CellPlace& place)
   {
-    rows_.resize (std::max (rows_.size (), place.y + shape.rows.size ()));
+    rows.resize (std::max (rows.size (), place.y + shape.rows.size ()));
     for (std::size_t r = 0; r < shape.rows.size (); ++r)
       for (const Cells& run : shape.rows[r])
-        rows_[place.y + r] += Cells (place.x + run.lower (), place.x + run.upper ());
+        rows[place.y + r] += Cells (place.x + run.lower (), place.x + run.upper ());
   }
 
-  std::size_t height () const { return rows_.size (); }
-
-  std::size_t work () const { return work_; } // rows of shapes that were looked at
-
-private:
   // Moves a shape to the right until it is free. Skipped positions are occupied, so earlier rows
   // need no new test.
   // \return false if it leaves the strip
   bool moveToFree (const CellMask& shape, CellPlace& place)
   {
-    const std::size_t rows = std::min (
-        shape.rows.size (), rows_.size () - std::min (rows_.size (), std::size_t{place.y}));
+    const std::size_t tested =
+        std::min (shape.rows.size (), rows.size () - std::min (rows.size (), std::size_t{place.y}));
     std::size_t free_rows = 0; // the last tested ones
-    for (std::size_t r = 0; free_rows < rows && place.x + shape.width <= width_;
-         r = r + 1 < rows ? r + 1 : 0, ++work_)
-      free_rows = moveInRow (rows_[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
-    return place.x + shape.width <= width_;
+    for (std::size_t r = 0; free_rows < tested && place.x + shape.width <= width;
+         r = r + 1 < tested ? r + 1 : 0, ++work)
+      free_rows = moveInRow (rows[place.y + r], shape.rows[r], place.x) ? 1 : free_rows + 1;
+    return place.x + shape.width <= width;
   }
 
   // \return whether the shape was moved
@@ -118,10 +123,6 @@ private:
     }
     return x != before;
   }
-
-  Index width_;
-  std::vector<CellRow> rows_; // occupied cells
-  std::size_t work_ = 0;
 };
 
 // \param[out] places of the shapes
@@ -131,14 +132,14 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
              const RunContext& run, std::vector<CellPlace>& places)
 {
   places.resize (shapes.size ());
-  Strip strip (width);
+  Strip strip{width};
   // Where there are thousands of long shapes, such as needles, the rest is packed as boxes upwards.
   const std::size_t most_work = MOST_WORK + MOST_WORK_OF_SHAPE * shapes.size ();
   CellPlace last_of_rest;
   ProgressLoop progress (run, shapes.size ());
   for (const Index s : order) {
     progress.reach (static_cast<std::size_t> (&s - order.data ()));
-    if (strip.work () > most_work) {
+    if (strip.work > most_work) {
       CellMask box = shapes[s][0];
       box.rows.assign (box.rows.size (), {Cells (0, box.width)});
       places[s] = last_of_rest = strip.findPlace (box, last_of_rest, NONE);
@@ -159,7 +160,7 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
     }
     strip.occupy (shapes[s][places[s].quarters], places[s]);
   }
-  return static_cast<Index> (strip.height ());
+  return static_cast<Index> (strip.rows.size ());
 }
 
 // The cells that triangles touch, and all adjacent cells; so the array begins one cell left of and
@@ -213,7 +214,7 @@ makeCellMask (const CellArray& taken)
 // width is varied until it equals the height.
 // \return the positions, and the side of the square in cells
 std::pair<std::vector<CellPlace>, Index>
-packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContext& run)
+packCells (const std::vector<TurnedMasks>& shapes, const RunContext& run)
 {
   std::vector<Index> order (shapes.size ());
   std::iota (order.begin (), order.end (), Index{0});
@@ -231,7 +232,7 @@ packCells (const std::vector<TurnedMasks>& shapes, int attempts, const RunContex
       least_width, static_cast<Index> (std::sqrt (static_cast<double> (cells) / EXPECTED_FILL)));
   std::vector<CellPlace> best, places;
   Index least_side = NONE;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
+  for (int attempt = 0; attempt < MOST_WIDTHS; ++attempt) {
     const Index height = packInStrip (shapes, order, width, run, places);
     if (std::max (width, height) < least_side) {
       least_side = std::max (width, height);
@@ -291,30 +292,15 @@ turnAndScale (ChartLayout& chart, double area, double longest)
     p = factor * p - factor * box.min ();
 }
 
-// Rotates by quarter turns anti-clockwise, in a box of whole cells that stays at the origin.
-void
-turnQuarters (std::vector<Vector2d>& uv, int quarters)
-{
-  Vector2d size = Vector2d::Zero ();
-  for (const Vector2d& p : uv)
-    size = size.cwiseMax (p.array ().floor ().matrix () + Vector2d::Ones ());
-  for (int q = 0; q < quarters; ++q) {
-    for (Vector2d& p : uv)
-      p = Vector2d (size.y () - p.y (), p.x ());
-    std::swap (size.x (), size.y ());
-  }
-}
-
 } // namespace
 
 double
-packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const RunContext& run)
+packCharts (std::vector<ChartLayout>& charts, const RunContext& run)
 {
   if (charts.empty ())
     return 0.0;
   const double cells = std::max (
-      static_cast<double> (limits.cells),
-      std::ceil (limits.cells_per_chart * std::sqrt (static_cast<double> (charts.size ()))));
+      LEAST_CELLS, std::ceil (CELLS_PER_CHART * std::sqrt (static_cast<double> (charts.size ()))));
   const auto weightOf = [] (const ChartLayout& chart) {
     constexpr double MOST_STRETCH = 1000.0;
     return chart.area * std::min (chart.stretch, MOST_STRETCH);
@@ -323,7 +309,7 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
   double total = std::numeric_limits<double>::min ();
   for (const ChartLayout& chart : charts)
     total += weightOf (chart);
-  const double cells_per_area = limits.first_fill * cells * cells / total;
+  const double cells_per_area = FIRST_FILL * cells * cells / total;
   std::vector<TurnedMasks> masks (charts.size ());
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     turnAndScale (charts[c], cells_per_area * weightOf (charts[c]), LONGEST * cells);
@@ -333,11 +319,19 @@ packCharts (std::vector<ChartLayout>& charts, const AtlasLimits& limits, const R
       touched = CellArray (touched.transpose ().rowwise ().reverse ());
     }
   });
-  const auto packed = packCells (masks, limits.attempts, run);
+  const auto packed = packCells (masks, run);
   const auto side = static_cast<double> (packed.second);
   parallelTasks (run, charts.size (), [&] (std::size_t c) {
     const auto& [x, y, quarters] = packed.first[c];
-    turnQuarters (charts[c].uv, quarters);
+    // Rotates by quarter turns anti-clockwise, in a box of whole cells that stays at the origin.
+    Vector2d size = Vector2d::Zero ();
+    for (const Vector2d& p : charts[c].uv)
+      size = size.cwiseMax (p.array ().floor ().matrix () + Vector2d::Ones ());
+    for (int q = 0; q < quarters; ++q) {
+      for (Vector2d& p : charts[c].uv)
+        p = Vector2d (size.y () - p.y (), p.x ());
+      std::swap (size.x (), size.y ());
+    }
     const Vector2d corner (static_cast<double> (x + 1), static_cast<double> (y + 1));
     for (Vector2d& p : charts[c].uv)
       p = (p + corner) / side;

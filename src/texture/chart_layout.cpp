@@ -11,16 +11,6 @@
 
 namespace pcl::floater {
 namespace {
-constexpr int MOST_STEPS = 10;          // of the relaxation; later ones hardly lower the stretch
-constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
-
-// Neighbours of inner vertices, and their weights.
-struct Weights
-{
-  CsrLists neighbors;
-  std::vector<double> values;
-};
-
 // Infinite if there is no layout, or a triangle is flipped.
 double
 meanStretch (const MeshPiece& chart, const std::vector<Vector2d>& uv)
@@ -28,39 +18,6 @@ meanStretch (const MeshPiece& chart, const std::vector<Vector2d>& uv)
   const std::vector<Triangle>& triangles = chart.mesh.triangles;
   return uv.empty () ? std::numeric_limits<double>::infinity ()
                      : stretchOf (triangles, chart.positions, triangles, uv).mean ();
-}
-
-// Divides weights by the stretch around the neighbour.
-void
-evenOut (const MeshPiece& chart, const std::vector<Vector2d>& uv, Weights& weights)
-{
-  std::vector<StretchSums> around (uv.size ());
-  for (const Triangle& t : chart.mesh.triangles)
-    for (const Index p : t)
-      around[p].add ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
-                     {uv[t[0]], uv[t[1]], uv[t[2]]});
-  for (std::size_t i = 0; i < weights.values.size (); ++i)
-    weights.values[i] /= around[weights.neighbors.ids[i]].absolute ();
-}
-
-std::vector<Vector2d>
-solveWeights (const MeshPiece& chart, const Weights& weights, const std::vector<Vector2d>& loop_uv,
-              const RunContext& run)
-{
-  const Flags all (chart.positions.size (), 1);
-  const LinearSystem system =
-      assembleSystem (weights.neighbors, weights.values, chart.loop, loop_uv, all);
-  const Solution solution = solve (system, {}, run);
-  if (solution.problem.status == RunStatus::OUT_OF_MEMORY)
-    throw std::bad_alloc ();
-  if (solution.problem)
-    return {};
-  std::vector<Vector2d> uv (chart.positions.size ());
-  for (std::size_t i = 0; i < chart.loop.size (); ++i)
-    uv[chart.loop[i]] = loop_uv[i];
-  for (std::size_t i = 0; i < system.unknowns (); ++i)
-    uv[system.point_of_unknown[i]] = solution.uv.row (static_cast<Eigen::Index> (i));
-  return uv;
 }
 
 bool
@@ -75,7 +32,7 @@ project (const MeshPiece& chart)
 {
   Vector3d normal = Vector3d::Zero (), middle = Vector3d::Zero ();
   for (const Triangle& t : chart.mesh.triangles)
-    normal += areaVector (chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
+    normal += areaVectorOf (t, chart.positions);
   for (const Vector3d& p : chart.positions)
     middle += p / static_cast<double> (chart.positions.size ());
   const TangentFrame frame (normal.normalized ());
@@ -122,24 +79,43 @@ relax (const RestShapes& rest, const DescentLimits& limits, const RunContext& ru
 std::vector<Vector2d>
 layOutOnCircle (const MeshPiece& chart, const RunContext& run)
 {
-  const TriangleMesh& mesh = chart.mesh;
+  constexpr int MOST_STEPS = 10;          // later ones hardly lower the stretch
+  constexpr double LEAST_PROGRESS = 0.98; // factor of the stretch by a step, to continue
+  const std::size_t vertices = chart.positions.size ();
   const std::vector<Vector2d> loop_uv = layLoop (chart.positions, chart.loop, {});
-  // Each edge at an inner vertex leaves it in one triangle.
-  Weights weights;
-  weights.neighbors = makeCsrLists (chart.positions.size (), [&] (const auto& emit) {
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side)
-        emit (mesh.from ({t, side}), mesh.to ({t, side}));
-  });
-  weights.values.assign (weights.neighbors.ids.size (), 1.0);
-  std::vector<Vector2d> uv = solveWeights (chart, weights, loop_uv, run);
+  const CsrLists neighbors = MeshRings (chart.mesh).neighbors;
+  std::vector<double> weights (neighbors.ids.size (), 1.0);
+  // By the weights; empty if the solver fails.
+  const auto layOut = [&] {
+    const LinearSystem system =
+        assembleSystem (neighbors, weights, chart.loop, loop_uv, Flags (vertices, 1));
+    const Solution solution = solve (system, {}, run);
+    if (solution.problem.status == RunStatus::OUT_OF_MEMORY)
+      throw std::bad_alloc ();
+    std::vector<Vector2d> uv;
+    if (solution.problem)
+      return uv;
+    uv.resize (vertices);
+    for (std::size_t i = 0; i < chart.loop.size (); ++i)
+      uv[chart.loop[i]] = loop_uv[i];
+    for (std::size_t i = 0; i < system.unknowns (); ++i)
+      uv[system.point_of_unknown[i]] = solution.uv.row (static_cast<Eigen::Index> (i));
+    return uv;
+  };
+  std::vector<Vector2d> uv = layOut ();
   double stretch = meanStretch (chart, uv);
   if (std::isinf (stretch))
     return {};
   bool goes_on = true;
   for (int step = 0; step < MOST_STEPS && goes_on; ++step) {
-    evenOut (chart, uv, weights);
-    std::vector<Vector2d> next = solveWeights (chart, weights, loop_uv, run);
+    std::vector<StretchSums> around (vertices);
+    for (const Triangle& t : chart.mesh.triangles)
+      for (const Index p : t)
+        around[p].add ({chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]},
+                       {uv[t[0]], uv[t[1]], uv[t[2]]});
+    for (std::size_t i = 0; i < weights.size (); ++i)
+      weights[i] /= around[neighbors.ids[i]].absolute ();
+    std::vector<Vector2d> next = layOut ();
     const double next_stretch = meanStretch (chart, next);
     if (!(next_stretch < stretch))
       break;

@@ -10,6 +10,33 @@
 
 namespace pcl::floater {
 namespace {
+// Largest mean of 1 - cos of the angles to the mean normal of a chart, plus the costs of creases and of
+// area that is turned away: half a sphere has 0.5, half a tube 0.36. More can hardly be flattened.
+constexpr double DEVIATION = 0.5;
+
+// The same for charts of more than LARGE triangles. A cap of 60 degrees of a sphere has 0.25: it can be
+// projected, which is a good start for its layout. Without it, the layout takes ten times as long.
+constexpr double DEVIATION_OF_LARGE = 0.25;
+constexpr std::size_t LARGE = 1000;
+
+// Cosine below which area counts as turned away from the mean normal of its chart: 80 degrees. And the
+// cost of the share of such area, in deviations: a twentieth takes up half of the limit. A chart that
+// hides a piece of itself cannot be projected.
+constexpr double AWAY_COSINE = 0.17, AWAY_WEIGHT = 5.0;
+
+// Cost of a crease of a right angle, in deviations: a quarter turn of one side adds as much as the
+// deviation of two flat sides (1 - cos 45 degrees, 0.29), so joining two faces of a box exceeds 0.5.
+constexpr double CREASE_WEIGHT = 0.25;
+
+// Cost of a seam as long as the border of a disc of the same area, in deviations. Decisive on flat
+// surfaces only.
+constexpr double SEAM_WEIGHT = 0.05;
+
+// A chart with so few triangles, and with less than this share of the joint area, is joined to a
+// neighbouring chart at the end, however it bends: alone it would waste space in the texture.
+constexpr std::size_t MOST_IN_CRUMB = 16;
+constexpr double CRUMB_SHARE = 0.1;
+
 // Common border of two charts.
 struct Contact
 {
@@ -39,67 +66,8 @@ oneMinusCosine (const Vector3d& a, const Vector3d& b)
   return lengths > 0.0 ? 1.0 - a.dot (b) / lengths : 0.0;
 }
 
-class ChartMerger
+struct ChartMerger
 {
-public:
-  ChartMerger (const TriangleMesh& mesh, const Positions& positions,
-               const std::vector<Vector3d>& area_vectors, const MeshComponents& facets, bool halves,
-               const ChartLimits& limits)
-      : mesh_ (mesh), facets_ (facets), limits_ (limits), halves_ (halves), charts_ (facets.count),
-        part_of_ (facets.count), left_ (facets.count)
-  {
-    for (std::size_t d = 0; d < DIRECTIONS; ++d)
-      directions_[d] = spiralDirection (d, DIRECTIONS);
-    std::iota (part_of_.begin (), part_of_.end (), Index{0});
-    for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
-      Chart& chart = charts_[facets.of_triangle[t]];
-      chart.sum += 0.5 * area_vectors[t];
-      ++chart.triangles;
-    }
-    for (Chart& chart : charts_) {
-      chart.area = chart.sum.norm ();
-      std::size_t nearest = 0;
-      for (std::size_t d = 1; d < directions_.size (); ++d)
-        if (directions_[d].dot (chart.sum) > directions_[nearest].dot (chart.sum))
-          nearest = d;
-      chart.facing[static_cast<Eigen::Index> (nearest)] = static_cast<float> (chart.area);
-    }
-    for (Index t = 0; t < mesh.triangles.size (); ++t)
-      for (std::uint8_t side = 0; side < 3; ++side) {
-        const MeshEdge edge{t, side};
-        const Index other = mesh.neighbors[t][side], own = facets.of_triangle[t];
-        const Index beside = other == NONE ? NONE : facets.of_triangle[other];
-        if (beside == own)
-          continue;
-        charts_[own].border.push_back (edge);
-        if (beside == NONE)
-          continue;
-        const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
-        Contact& contact = charts_[own].contacts[beside];
-        contact.length += length;
-        contact.crease += length * oneMinusCosine (charts_[own].sum, charts_[beside].sum);
-        charts_[own].seam += length;
-      }
-  }
-
-  // Joins the facets; to be called once.
-  MeshComponents merged (const RunContext& run)
-  {
-    // At the end, crumbs that remain join the cheapest neighbour.
-    for (const bool is_for_crumbs : {false, true}) {
-      is_for_crumbs_ = is_for_crumbs;
-      for (Index a = 0; a < charts_.size (); ++a)
-        for (const auto& [b, contact] : charts_[a].contacts)
-          offer (a, b);
-      takeOffers (run);
-    }
-    MeshComponents parts = facets_;
-    for (Index& part : parts.of_triangle)
-      part = find (part);
-    return parts;
-  }
-
-private:
   struct Offer
   {
     double cost;
@@ -111,119 +79,167 @@ private:
     }
   };
 
+  const TriangleMesh& mesh;
+  const MeshComponents& facets;
+  const ChartLimits& limits;
+  std::array<Vector3d, DIRECTIONS> directions{};
+  std::vector<Chart> charts = std::vector<Chart> (facets.count);
+  // Per facet: chart that it was joined to, transitively.
+  std::vector<Index> part_of = std::vector<Index> (facets.count);
+  std::priority_queue<Offer> offers{};
+  std::size_t left = facets.count; // number of charts
+  bool is_for_crumbs = false;
+  std::vector<Index> fan{};
+
+  // Joins the facets; to be called once.
+  MeshComponents merged (const Positions& positions, const std::vector<Vector3d>& area_vectors,
+                         const RunContext& run)
+  {
+    for (std::size_t d = 0; d < DIRECTIONS; ++d)
+      directions[d] = spiralDirection (d, DIRECTIONS);
+    std::iota (part_of.begin (), part_of.end (), Index{0});
+    for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
+      Chart& chart = charts[facets.of_triangle[t]];
+      chart.sum += 0.5 * area_vectors[t];
+      ++chart.triangles;
+    }
+    for (Chart& chart : charts) {
+      chart.area = chart.sum.norm ();
+      std::size_t nearest = 0;
+      for (std::size_t d = 1; d < directions.size (); ++d)
+        if (directions[d].dot (chart.sum) > directions[nearest].dot (chart.sum))
+          nearest = d;
+      chart.facing[static_cast<Eigen::Index> (nearest)] = static_cast<float> (chart.area);
+    }
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const MeshEdge edge{t, side};
+        const Index other = mesh.neighbors[t][side], own = facets.of_triangle[t];
+        const Index beside = other == NONE ? NONE : facets.of_triangle[other];
+        if (beside == own)
+          continue;
+        charts[own].border.push_back (edge);
+        if (beside == NONE)
+          continue;
+        const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
+        Contact& contact = charts[own].contacts[beside];
+        contact.length += length;
+        contact.crease += length * oneMinusCosine (charts[own].sum, charts[beside].sum);
+        charts[own].seam += length;
+      }
+    // At the end, crumbs that remain join the cheapest neighbour.
+    for (const bool is_end : {false, true}) {
+      is_for_crumbs = is_end;
+      for (Index a = 0; a < charts.size (); ++a)
+        for (const auto& [b, contact] : charts[a].contacts)
+          offer (a, b);
+      takeOffers (run);
+    }
+    MeshComponents parts = facets;
+    for (Index& part : parts.of_triangle)
+      part = find (part);
+    return parts;
+  }
+
   Index find (Index facet)
   {
-    while (part_of_[facet] != facet)
-      facet = part_of_[facet] = part_of_[part_of_[facet]];
+    while (part_of[facet] != facet)
+      facet = part_of[facet] = part_of[part_of[facet]];
     return facet;
   }
 
-  Index chartOf (Index t) { return find (facets_.of_triangle[t]); }
+  Index chartOf (Index t) { return find (facets.of_triangle[t]); }
 
   // Deviation and creases.
   double bendOf (Index a, Index b) const
   {
-    const Chart &one = charts_[a], &other = charts_[b];
+    const Chart &one = charts[a], &other = charts[b];
     const double area = one.area + other.area;
     const Vector3d sum = one.sum + other.sum;
     const double deviation = area > 0.0 ? 1.0 - sum.norm () / area : 0.0;
     const Contact& contact = one.contacts.at (b);
     const double crease = contact.length > 0.0 ? contact.crease / contact.length : 0.0;
-    return deviation + limits_.crease_weight * crease +
-           limits_.away_weight * shareAway (one.facing + other.facing, sum, area);
-  }
-
-  // Share of the area that is turned away from the sum.
-  double shareAway (const Histogram& facing, const Vector3d& sum, double area) const
-  {
-    const double level = limits_.away_cosine * sum.norm ();
-    double away = 0.0;
-    for (std::size_t d = 0; d < directions_.size (); ++d)
-      if (directions_[d].dot (sum) < level)
+    const Histogram facing = one.facing + other.facing;
+    const double level = AWAY_COSINE * sum.norm ();
+    double away = 0.0; // area that is turned away from the sum
+    for (std::size_t d = 0; d < directions.size (); ++d)
+      if (directions[d].dot (sum) < level)
         away += static_cast<double> (facing[static_cast<Eigen::Index> (d)]);
-    return area > 0.0 ? away / area : 0.0;
+    return deviation + CREASE_WEIGHT * crease + AWAY_WEIGHT * (area > 0.0 ? away / area : 0.0);
   }
 
   double costOf (Index a, Index b) const
   {
-    const Chart &one = charts_[a], &other = charts_[b];
+    const Chart &one = charts[a], &other = charts[b];
     const double area = one.area + other.area;
     const double seam = one.seam + other.seam - 2.0 * one.contacts.at (b).length;
     const double roundness = area > 0.0 ? seam / (2.0 * std::sqrt (PI * area)) : 0.0;
-    return bendOf (a, b) + limits_.seam_weight * roundness;
+    return bendOf (a, b) + SEAM_WEIGHT * roundness;
   }
 
   bool isAllowed (Index a, Index b) const
   {
-    const Chart &one = charts_[a], &other = charts_[b];
+    const Chart &one = charts[a], &other = charts[b];
     const std::size_t triangles = one.triangles + other.triangles;
-    if (triangles > limits_.most_triangles)
+    if (triangles > limits.most_triangles)
       return false;
-    if (halves_)
+    if (limits.halves)
       return true;
-    if (is_for_crumbs_) {
+    if (is_for_crumbs) {
       const Chart& small = one.area < other.area ? one : other;
-      return small.triangles <= limits_.most_in_crumb &&
-             small.area <= limits_.crumb_share * (one.area + other.area);
+      return small.triangles <= MOST_IN_CRUMB &&
+             small.area <= CRUMB_SHARE * (one.area + other.area);
     }
-    return bendOf (a, b) <=
-           (triangles <= limits_.large ? limits_.deviation : limits_.deviation_of_large);
+    return bendOf (a, b) <= (triangles <= LARGE ? DEVIATION : DEVIATION_OF_LARGE);
   }
 
   void takeOffers (const RunContext& run)
   {
-    ProgressLoop progress (run, charts_.size ());
-    while (!offers_.empty () && left_ > (halves_ ? 2U : 1U)) {
-      const Offer offer = offers_.top ();
-      offers_.pop ();
-      if (!isCurrent (offer))
+    ProgressLoop progress (run, charts.size ());
+    while (!offers.empty () && left > (limits.halves ? 2U : 1U)) {
+      const Offer offer = offers.top ();
+      offers.pop ();
+      // One of the charts was joined to another one, or there is a later offer for the two.
+      const auto contact = charts[offer.a].contacts.find (offer.b);
+      if (contact == charts[offer.a].contacts.end () || contact->second.offered != offer.cost)
         continue;
       // Charts have grown since then, which mostly raises the cost.
       if (costOf (offer.a, offer.b) > offer.cost)
         this->offer (offer.a, offer.b);
       else if (isAllowed (offer.a, offer.b) && makesDisc (offer.a, offer.b)) {
         join (offer.a, offer.b);
-        --left_;
+        --left;
         progress.next ();
       }
     }
-    offers_ = {};
+    offers = {};
   }
 
   void offer (Index a, Index b)
   {
     const double cost = costOf (a, b);
-    charts_[a].contacts.at (b).offered = charts_[b].contacts.at (a).offered = cost;
-    offers_.push ({cost, std::min (a, b), std::max (a, b)});
-  }
-
-  // False if a chart was joined to another one, or there is a later offer for the two.
-  bool isCurrent (const Offer& offer) const
-  {
-    const auto contact = charts_[offer.a].contacts.find (offer.b);
-    return contact != charts_[offer.a].contacts.end () && contact->second.offered == offer.cost;
+    charts[a].contacts.at (b).offered = charts[b].contacts.at (a).offered = cost;
+    offers.push ({cost, std::min (a, b), std::max (a, b)});
   }
 
   // Whether the union of two discs is a disc: their common border must be connected and not closed,
   // so it has one vertex more than edges. O(boundary of the shorter one).
   bool makesDisc (Index a, Index b)
   {
-    if (charts_[a].border.size () > charts_[b].border.size ())
+    if (charts[a].border.size () > charts[b].border.size ())
       std::swap (a, b);
-    std::vector<MeshEdge>& border = charts_[a].border;
+    std::vector<MeshEdge>& border = charts[a].border;
     std::size_t points = 0, edges = 0, kept = 0;
     for (const MeshEdge edge : border) {
-      const Index other = mesh_.neighbors[edge.triangle][edge.side];
+      const Index other = mesh.neighbors[edge.triangle][edge.side];
       const Index beyond = other == NONE ? NONE : chartOf (other);
       if (beyond == a)
         continue;
       border[kept++] = edge;
       edges += beyond == b ? 1 : 0;
-      mesh_.fan (mesh_.from (edge), fan_);
-      points +=
-          std::any_of (fan_.begin (), fan_.end (), [this, b] (Index t) { return chartOf (t) == b; })
-              ? 1
-              : 0;
+      mesh.fan (mesh.from (edge), fan);
+      if (std::any_of (fan.begin (), fan.end (), [&] (Index t) { return chartOf (t) == b; }))
+        ++points;
     }
     border.resize (kept);
     return points == edges + 1;
@@ -232,12 +248,12 @@ private:
   // Joins the chart with fewer neighbours to the other one, which keeps its number.
   void join (Index a, Index b)
   {
-    if (charts_[a].contacts.size () > charts_[b].contacts.size ())
+    if (charts[a].contacts.size () > charts[b].contacts.size ())
       std::swap (a, b);
-    part_of_[a] = b;
-    Chart small = std::move (charts_[a]);
-    charts_[a] = {};
-    Chart& large = charts_[b];
+    part_of[a] = b;
+    Chart small = std::move (charts[a]);
+    charts[a] = {};
+    Chart& large = charts[b];
     large.seam += small.seam - 2.0 * small.contacts.at (b).length;
     large.sum += small.sum;
     large.facing += small.facing;
@@ -252,39 +268,30 @@ private:
       Contact& to = large.contacts[c];
       to.length += contact.length;
       to.crease += contact.crease;
-      charts_[c].contacts.erase (a);
-      charts_[c].contacts[b] = to;
+      charts[c].contacts.erase (a);
+      charts[c].contacts[b] = to;
     }
     for (const auto& [c, contact] : small.contacts)
       offer (b, c);
   }
-
-  const TriangleMesh& mesh_;
-  const MeshComponents& facets_;
-  const ChartLimits& limits_;
-  std::array<Vector3d, DIRECTIONS> directions_;
-  bool halves_; // until there are two, whatever the deviation
-  std::vector<Chart> charts_;
-  std::vector<Index> part_of_; // per facet: chart that it was joined to, transitively
-  std::priority_queue<Offer> offers_;
-  std::size_t left_; // number of charts
-  bool is_for_crumbs_ = false;
-  std::vector<Index> fan_;
 };
 
 // Moves triangles with two edges on a seam to the chart beyond it where this shortens the seam. Charts
 // stay discs, and none vanishes.
 void
 straightenSeams (const TriangleMesh& mesh, const Positions& positions,
-                 const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
-                 const RunContext& run, MeshComponents& charts)
+                 const std::vector<Vector3d>& area_vectors, const RunContext& run,
+                 MeshComponents& charts)
 {
+  // Weight of a seam along a sharp crease relative to one across a flat region: seams stay on creases.
+  constexpr double LEAST_WEIGHT = 0.1;
+  constexpr int ROUNDS_AT_MOST = 8; // it ends when nothing changes
   // Weight of a seam along an edge.
   const auto weight = [&] (MeshEdge edge) {
     const double length = (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
     const Index other = mesh.neighbors[edge.triangle][edge.side];
     const double cosine = 1.0 - oneMinusCosine (area_vectors[edge.triangle], area_vectors[other]);
-    return length * std::max (limits.least_seam_weight, cosine);
+    return length * std::max (LEAST_WEIGHT, cosine);
   };
   std::vector<Index> fan;
   // Returns whether the triangle was moved.
@@ -326,7 +333,7 @@ straightenSeams (const TriangleMesh& mesh, const Positions& positions,
         waiting.push_back (t);
         break;
       }
-  for (int round = 0; round < limits.straightening_rounds && !waiting.empty (); ++round) {
+  for (int round = 0; round < ROUNDS_AT_MOST && !waiting.empty (); ++round) {
     ProgressLoop progress (run, waiting.size ());
     std::vector<Index> next;
     for (const Index t : waiting) {
@@ -343,14 +350,13 @@ straightenSeams (const TriangleMesh& mesh, const Positions& positions,
 } // namespace
 
 MeshComponents
-findCharts (const TriangleMesh& mesh, const Positions& positions, bool halves,
-            const ChartLimits& limits, const RunContext& run)
+findCharts (const TriangleMesh& mesh, const Positions& positions, const ChartLimits& limits,
+            const RunContext& run)
 {
   const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
   const MeshComponents facets = growFacets (mesh, positions, area_vectors, limits, run);
-  MeshComponents charts =
-      ChartMerger (mesh, positions, area_vectors, facets, halves, limits).merged (run);
-  straightenSeams (mesh, positions, area_vectors, limits, run, charts);
+  MeshComponents charts = ChartMerger{mesh, facets, limits}.merged (positions, area_vectors, run);
+  straightenSeams (mesh, positions, area_vectors, run, charts);
   // Numbers the charts in the order of their first triangles.
   std::vector<Index> number (charts.count, NONE);
   charts.count = 0;

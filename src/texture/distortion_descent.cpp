@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/distortion_descent.h"
-
 #include "core/exact.h"
 #include "core/geometry.h"
 #include "core/order_statistics.h"
+#include "texture/chart_layout.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -17,19 +16,22 @@ namespace {
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
 // One row for each vertex, as in a list of coordinates.
-using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 constexpr double MEAN_WEIGHT = 1e-8; // of all vertices in the Laplacian: it must not be singular
 constexpr double SUFFICIENT = 1e-4;  // of the decrease predicted by the slope (Armijo)
 constexpr double SHORTEST = 1e-6;    // useful step
 constexpr int STEPS_PER_LOOK = 8;    // between tests of the boundary
+constexpr double SAFE_SHARE = 0.8;   // of the step to the first triangle without area
+constexpr double ENOUGH = 4.3; // distortion above which Newton's method follows; the minimum is 4
+constexpr double LEAST_NEWTON_PROGRESS = 0.02; // as DescentLimits::least_progress
 // Initial relative increase of the diagonal of a Hessian if rounding leaves no useful step
 // (Levenberg). Just above the rounding of a double; increased up to 1.
 constexpr double LEAST_DAMPING = 1e-15;
 constexpr double MORE_DAMPING = 1000.0; // factor of each increase
 
 Eigen::Matrix2d
-edgesOf (const Plane& x, const Triangle& c)
+edgesOf (const Coordinates& x, const Triangle& c)
 {
   Eigen::Matrix2d edges;
   edges.col (0) = (x.row (c[1]) - x.row (c[0])).transpose ();
@@ -65,63 +67,18 @@ struct Descent
 {
   const MeshPiece& chart;
   const RestShapes& rest;
-  const DescentLimits& limits;
-  Cholesky laplacian{};
-
-  void run (const RunContext& run, std::vector<Vector2d>& uv)
-  {
-    const auto vertices = static_cast<Eigen::Index> (uv.size ());
-    Plane x = Eigen::Map<const Plane> (uv.front ().data (), vertices, 2);
-    scale (x);
-    const auto accept = [&] {
-      std::vector<Vector2d> next (uv.size ());
-      Eigen::Map<Plane> (next.front ().data (), vertices, 2) = x;
-      if (!isSimple (chart.loop, next))
-        return false;
-      uv = std::move (next);
-      return true;
-    };
-    if (!accept ())
-      return;
-    factorize ();
-    if (laplacian.info () != Eigen::Success)
-      return;
-    double energy = energyOf (x);
-    descend (run, x, energy, accept);
-    if (energy > limits.enough) {
-      newton (run, x, energy);
-      if (accept ())
-        descend (run, x, energy, accept);
-    }
-    accept ();
-  }
-
-private:
-  // Scales to least energy.
-  void scale (Plane& x) const
-  {
-    double direct = 0.0, inverse = 0.0;
-    for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
-      const Eigen::Matrix2d map = edgesOf (x, chart.mesh.triangles[t]) * rest.shapes[t].to_unit;
-      const double squares = map.squaredNorm (), determinant = map.determinant ();
-      direct += rest.shapes[t].area * squares;
-      inverse += rest.shapes[t].area * squares / (determinant * determinant);
-    }
-    const double factor = std::sqrt (std::sqrt (inverse / direct));
-    if (std::isfinite (factor) && factor > 0.0)
-      x *= factor;
-  }
 
   // A step along a direction that lowers the energy enough. Returns false if there is none.
   // \param[in,out] x, energy set to the end of the step
-  bool goAlong (const Plane& direction, const Plane& gradient, Plane& x, double& energy) const
+  bool goAlong (const Coordinates& direction, const Coordinates& gradient, Coordinates& x,
+                double& energy) const
   {
     const double slope = gradient.cwiseProduct (direction).sum ();
     if (!(slope < 0.0))
       return false;
-    double length = std::min (1.0, limits.safe_share * reach (x, direction));
+    double length = std::min (1.0, SAFE_SHARE * reach (x, direction));
     for (; length > SHORTEST; length *= 0.5) {
-      Plane next = x + length * direction;
+      Coordinates next = x + length * direction;
       const double next_energy = energyOf (next);
       if (next_energy <= energy + SUFFICIENT * length * slope && next_energy < energy) {
         x = std::move (next);
@@ -132,34 +89,18 @@ private:
     return false;
   }
 
-  // Steps along the gradient with regard to the Laplacian. Tests the boundary now and then, and
-  // returns if it crosses itself.
-  template <typename Accept>
-  void descend (const RunContext& run, Plane& x, double& energy, const Accept& accept) const
-  {
-    for (int step = 1; step <= limits.steps; ++step) {
-      run.poll ();
-      const Plane gradient = gradientOf (x), direction = -laplacian.solve (gradient);
-      const double last_energy = energy;
-      if (!goAlong (direction, gradient, x, energy) ||
-          last_energy - energy <= limits.least_progress * (energy - 4.0) ||
-          (step % STEPS_PER_LOOK == 0 && !accept ()))
-        return;
-    }
-  }
-
   // Newton's method, with the Hessian of each triangle made positive by its known eigenvectors
   // (Smith, de Goes, Kim 2019). Slower per step, but works for triangles so compressed that the
   // Laplacian is useless.
-  void newton (const RunContext& run, Plane& x, double& energy) const
+  void newton (int steps, const RunContext& run, Coordinates& x, double& energy) const
   {
     Cholesky solver;
-    for (int step = 0; step < limits.newton_steps; ++step) {
+    for (int step = 0; step < steps; ++step) {
       run.poll ();
       Eigen::SparseMatrix<double> hessian = hessianOf (x);
       if (step == 0)
         solver.analyzePattern (hessian);
-      const Plane gradient = gradientOf (x);
+      const Coordinates gradient = gradientOf (x);
       const double last_energy = energy;
       const auto goByHessian = [&] {
         solver.factorize (hessian);
@@ -167,7 +108,8 @@ private:
           return false;
         const Eigen::Map<const Eigen::VectorXd> slopes (gradient.data (), gradient.size ());
         const Eigen::VectorXd down = -solver.solve (slopes);
-        return goAlong (Eigen::Map<const Plane> (down.data (), x.rows (), 2), gradient, x, energy);
+        return goAlong (Eigen::Map<const Coordinates> (down.data (), x.rows (), 2), gradient, x,
+                        energy);
       };
       double damping = 0.0;
       while (!goByHessian ()) {
@@ -177,13 +119,12 @@ private:
         hessian.diagonal () *= (1.0 + more) / (1.0 + damping);
         damping = more;
       }
-      if (energy < limits.enough ||
-          last_energy - energy <= limits.least_newton_progress * (energy - 4.0))
+      if (energy < ENOUGH || last_energy - energy <= LEAST_NEWTON_PROGRESS * (energy - 4.0))
         return;
     }
   }
 
-  Eigen::SparseMatrix<double> hessianOf (const Plane& x) const
+  Eigen::SparseMatrix<double> hessianOf (const Coordinates& x) const
   {
     Entries entries;
     constexpr std::size_t PER_TRIANGLE = 21;
@@ -230,7 +171,7 @@ private:
   }
 
   // The Laplacian of the shapes: proportional to the Hessian of the energy near its minimum.
-  void factorize ()
+  Eigen::SparseMatrix<double> laplacian () const
   {
     Entries entries;
     entries.reserve (9 * rest.shapes.size () + chart.positions.size ());
@@ -239,11 +180,11 @@ private:
       addBlock<3> (chart.mesh.triangles[t], rest.shapes[t].area * slopes * slopes.transpose (),
                    entries);
     }
-    laplacian.compute (makeMatrix (entries, static_cast<Eigen::Index> (chart.positions.size ())));
+    return makeMatrix (entries, static_cast<Eigen::Index> (chart.positions.size ()));
   }
 
   // Infinite if a triangle has no area.
-  double energyOf (const Plane& x) const
+  double energyOf (const Coordinates& x) const
   {
     double energy = 0.0;
     for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
@@ -257,9 +198,9 @@ private:
     return energy;
   }
 
-  Plane gradientOf (const Plane& x) const
+  Coordinates gradientOf (const Coordinates& x) const
   {
-    Plane gradient = Plane::Zero (x.rows (), 2);
+    Coordinates gradient = Coordinates::Zero (x.rows (), 2);
     for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
       const RestShape& shape = rest.shapes[t];
       const Triangle& c = chart.mesh.triangles[t];
@@ -280,7 +221,7 @@ private:
   }
 
   // Largest multiple of the direction before a triangle has no area.
-  double reach (const Plane& x, const Plane& direction) const
+  double reach (const Coordinates& x, const Coordinates& direction) const
   {
     double least = std::numeric_limits<double>::infinity ();
     for (const Triangle& triangle : chart.mesh.triangles) {
@@ -316,7 +257,54 @@ void
 descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
                    const RunContext& run, std::vector<Vector2d>& uv)
 {
-  Descent{chart, rest, limits}.run (run, uv);
+  const Descent descent{chart, rest};
+  const auto vertices = static_cast<Eigen::Index> (uv.size ());
+  Coordinates x = Eigen::Map<const Coordinates> (uv.front ().data (), vertices, 2);
+  // Scales to least energy.
+  double direct = 0.0, inverse = 0.0;
+  for (std::size_t t = 0; t < rest.shapes.size (); ++t) {
+    const Eigen::Matrix2d map = edgesOf (x, chart.mesh.triangles[t]) * rest.shapes[t].to_unit;
+    const double squares = map.squaredNorm (), determinant = map.determinant ();
+    direct += rest.shapes[t].area * squares;
+    inverse += rest.shapes[t].area * squares / (determinant * determinant);
+  }
+  const double factor = std::sqrt (std::sqrt (inverse / direct));
+  if (std::isfinite (factor) && factor > 0.0)
+    x *= factor;
+  const auto accept = [&] {
+    std::vector<Vector2d> next (uv.size ());
+    Eigen::Map<Coordinates> (next.front ().data (), vertices, 2) = x;
+    if (!isSimple (chart.loop, next))
+      return false;
+    uv = std::move (next);
+    return true;
+  };
+  if (!accept ())
+    return;
+  const Cholesky laplacian (descent.laplacian ());
+  if (laplacian.info () != Eigen::Success)
+    return;
+  double energy = descent.energyOf (x);
+  // Steps along the gradient with regard to the Laplacian. Tests the boundary now and then, and ends
+  // if it crosses itself.
+  const auto descend = [&] {
+    for (int step = 1; step <= limits.steps; ++step) {
+      run.poll ();
+      const Coordinates gradient = descent.gradientOf (x), direction = -laplacian.solve (gradient);
+      const double last_energy = energy;
+      if (!descent.goAlong (direction, gradient, x, energy) ||
+          last_energy - energy <= limits.least_progress * (energy - 4.0) ||
+          (step % STEPS_PER_LOOK == 0 && !accept ()))
+        return;
+    }
+  };
+  descend ();
+  if (energy > ENOUGH) {
+    descent.newton (limits.newton_steps, run, x, energy);
+    if (accept ())
+      descend ();
+  }
+  accept ();
 }
 
 bool

@@ -18,6 +18,9 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
             const std::vector<Vector3d>& area_vectors, const ChartLimits& limits,
             const RunContext& run)
 {
+  // Largest angle between a triangle and the mean normal of its facet, as 1 - cos: 25 degrees, below
+  // the edges of machined parts (30 and more) and above the curvature of good samplings.
+  constexpr double MOST_DEVIATION = 0.1;
   // Weight of a triangle's distance to the middle of a facet, in radii of the facet, against its
   // deviation: in flat regions, facets become round.
   constexpr double ROUNDNESS = 0.01;
@@ -29,10 +32,6 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
   std::vector<Index> border; // triangles beside the facet; some may be taken already
   Vector3d sum, middle;
   double area = 0.0;
-  const auto middleOf = [&] (Index t) -> Vector3d {
-    const Triangle& corners = mesh.triangles[t];
-    return (positions[corners[0]] + positions[corners[1]] + positions[corners[2]]) / 3.0;
-  };
   const auto add = [&] (Index t) {
     facets.of_triangle[t] = facets.count;
     for (const Index p : mesh.triangles[t])
@@ -42,7 +41,7 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
         border.push_back (other);
     const double of_triangle = area_vectors[t].norm ();
     sum += area_vectors[t];
-    middle += of_triangle * middleOf (t);
+    middle += of_triangle * middleOf (mesh.triangles[t], positions);
     area += of_triangle;
   };
   // Whether a facet that is a disc stays one: its common border with the triangle is one path.
@@ -65,10 +64,10 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
     for (const Index t : border) {
       const double lengths = sum.norm () * area_vectors[t].norm ();
       const double deviation = lengths > 0.0 ? 1.0 - sum.dot (area_vectors[t]) / lengths : 0.0;
-      if (deviation > limits.facet_deviation)
+      if (deviation > MOST_DEVIATION)
         continue;
-      const double distance =
-          area > 0.0 ? (middleOf (t) - middle / area).squaredNorm () / area : 0.0;
+      const Vector3d own = middleOf (mesh.triangles[t], positions);
+      const double distance = area > 0.0 ? (own - middle / area).squaredNorm () / area : 0.0;
       const double cost = deviation + ROUNDNESS * distance;
       if ((cost < least || (cost == least && t < best)) && keepsDisc (t)) {
         best = t;

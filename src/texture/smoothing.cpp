@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/smoothing.h"
-
 #include "core/parallel.h"
 #include "texture/chart_mesh.h"
 #include "texture/charts.h"
@@ -10,82 +8,51 @@
 
 namespace pcl::floater {
 namespace {
-// Angles at the edges of one or several vertices.
+// Threshold in radians for the mean outward and the mean inward bend at the edges of a vertex and its
+// neighbours: if both are above, the surface bends both ways. Bodies, however coarse, and creases bend
+// one way. With angles that scatter by 20 degrees, as for noise of a tenth of the spacing, it is 0.14.
+// A vertex is rough if it and half of its neighbours bend both ways.
+constexpr double ROUGH = 0.14;
+
+// Bend below which a vertex of noise is smooth. With it, noise as large as the spacing leaves normals
+// of a plane that differ by 4 degrees between triangles, and by 6 from the plane (medians).
+constexpr double SMOOTH = 0.06;
+
+// Rings of vertices around rough ones that are smoothed as well, unless smooth: quantized depths are
+// flat between their steps.
+constexpr int RINGS = 3;
+
+constexpr int MOST_ROUNDS = 20; // noise as large as the spacing takes 10
+
+// Largest displacement of a vertex, in mean lengths of the edges at the vertices around it, where
+// these are longest: the largest noise that can be connected. Without this, thin parts would shrink
+// to lines.
+constexpr double FARTHEST = 1.0;
+
+// Angles at the edges of a vertex.
 struct Bends
 {
   double outwards = 0.0, inwards = 0.0; // sums
   std::size_t edges = 0;                // that are inside
-
-  void add (const Bends& other)
-  {
-    outwards += other.outwards;
-    inwards += other.inwards;
-    edges += other.edges;
-  }
-
-  // The smaller one of the means of outward and inward angles.
-  double bothWays () const
-  {
-    return edges > 0 ? std::min (outwards, inwards) / static_cast<double> (edges) : 0.0;
-  }
 };
 
-struct Smoother
+} // namespace
+
+Positions
+smoothNoise (const TriangleMesh& mesh, const Positions& original, const RunContext& run)
 {
-  const TriangleMesh& mesh;
-  const Positions& original; // positions
-  const SmoothingLimits& limits;
-  const RunContext& run;
-  MeshRings rings{mesh};
-  std::vector<Bends> bends_at{}; // per point
-
-  Positions smoothed ()
-  {
-    bends_at.resize (original.size ());
-    Positions current = original;
-    Flags is_noisy (original.size (), 1);
-    measureBends (current, is_noisy);
-    is_noisy = findNoise ();
-    if (std::find (is_noisy.begin (), is_noisy.end (), 1) == is_noisy.end ())
-      return current;
-    widen (is_noisy);
-    const std::vector<double> reach = findReach ();
-    Positions next = current;
-    for (int round = 0; round < limits.rounds; ++round) {
-      measureBends (current, is_noisy);
-      std::atomic<bool> has_moved{false};
-      visit ([&] (Index p) {
-        if (is_noisy[p] == 0 || !(bendsAround (p).bothWays () > limits.smooth)) {
-          next[p] = current[p];
-          return;
-        }
-        const Vector3d way = targetOf (current, p) - original[p];
-        const double length = way.norm ();
-        next[p] = original[p] + way * (length > reach[p] ? reach[p] / length : 1.0);
-        has_moved = true;
-      });
-      current.swap (next);
-      if (!has_moved)
-        break;
-    }
-    return current;
-  }
-
-private:
+  const MeshRings rings (mesh);
+  std::vector<Bends> bends_at (original.size ());
   // Calls work (p) for every vertex.
-  template <typename Work>
-  void visit (const Work& work) const
-  {
+  const auto visit = [&] (const auto& work) {
     parallelPoints (run, original.size (), [&] (Index p) {
       if (mesh.triangle_of[p] != NONE)
         work (p);
     });
-  }
-
+  };
   // Sums the bends of marked vertices: the angles between the normals at their edges, outwards where
   // the surface is convex.
-  void measureBends (const Positions& positions, const Flags& is_marked)
-  {
+  const auto measureBends = [&] (const Positions& positions, const Flags& is_marked) {
     const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
     visit ([&] (Index p) {
       if (is_marked[p] == 0)
@@ -104,82 +71,83 @@ private:
         ++bends.edges;
       }
     });
-  }
-
-  // A single peak bends one way only, so adjacent vertices count as well.
-  Bends bendsAround (Index p) const
-  {
+  };
+  // The smaller one of the means of outward and inward angles. A single peak bends one way only, so
+  // adjacent vertices count as well.
+  const auto bendBothWays = [&] (Index p) {
     Bends sum = bends_at[p];
-    for (const Index q : rings.neighbors.row (p))
-      sum.add (bends_at[q]);
-    return sum;
-  }
-
-  Flags findNoise () const
-  {
-    Flags bends_both_ways (original.size (), 0);
-    visit ([&] (Index p) {
-      const Bends& own = bends_at[p];
-      if (own.outwards + own.inwards > limits.bend * static_cast<double> (own.edges))
-        bends_both_ways[p] = bendsAround (p).bothWays () > limits.bend ? 1 : 0;
-    });
-    // Where creases of both kinds meet, only one vertex bends both ways.
-    Flags is_noisy (original.size (), 0);
-    visit ([&] (Index p) {
-      if (bends_both_ways[p] == 0)
-        return;
-      std::size_t beside = 0;
-      for (const Index q : rings.neighbors.row (p))
-        beside += bends_both_ways[q];
-      is_noisy[p] = 2 * beside >= rings.neighbors.row (p).size () ? 1 : 0;
-    });
-    return is_noisy;
-  }
-
+    for (const Index q : rings.neighbors.row (p)) {
+      sum.outwards += bends_at[q].outwards;
+      sum.inwards += bends_at[q].inwards;
+      sum.edges += bends_at[q].edges;
+    }
+    return sum.edges > 0 ? std::min (sum.outwards, sum.inwards) / static_cast<double> (sum.edges)
+                         : 0.0;
+  };
   // Gives each vertex the largest value of those within some rings around it.
-  template <typename Value>
-  void widen (std::vector<Value>& values) const
-  {
-    for (int ring = 0; ring < limits.rings; ++ring) {
-      const std::vector<Value> narrow = values;
+  const auto widen = [&] (auto& values) {
+    for (int ring = 0; ring < RINGS; ++ring) {
+      const auto narrow = values;
       visit ([&] (Index p) {
         for (const Index q : rings.neighbors.row (p))
           values[p] = std::max (values[p], narrow[q]);
       });
     }
-  }
-
-  // Largest displacement of each vertex: by the longest mean length of edges around it.
-  std::vector<double> findReach () const
-  {
-    std::vector<double> reach (original.size (), 0.0);
-    visit ([&] (Index p) {
-      for (const Index q : rings.neighbors.row (p))
-        reach[p] += limits.farthest * (original[q] - original[p]).norm ();
-      reach[p] /= static_cast<double> (rings.neighbors.row (p).size ());
-    });
-    widen (reach);
-    return reach;
-  }
-
-  // The mean of the neighbours; at the boundary, of those along it. A vertex of one triangle would
-  // get between these, and moves with them instead.
-  Vector3d targetOf (const Positions& positions, Index p) const
-  {
+  };
+  // A vertex of one triangle would get between its neighbours, and moves with them instead.
+  const auto targetOf = [&] (const Positions& positions, Index p) -> Vector3d {
     const Vector3d mean = rings.meanAround (positions, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
       return mean;
     return original[p] + mean - rings.meanAround (original, p);
+  };
+
+  measureBends (original, Flags (original.size (), 1));
+  Flags bends_both_ways (original.size (), 0), is_noisy = bends_both_ways;
+  visit ([&] (Index p) {
+    const Bends& own = bends_at[p];
+    if (own.outwards + own.inwards > ROUGH * static_cast<double> (own.edges))
+      bends_both_ways[p] = bendBothWays (p) > ROUGH ? 1 : 0;
+  });
+  // Where creases of both kinds meet, only one vertex bends both ways.
+  visit ([&] (Index p) {
+    if (bends_both_ways[p] == 0)
+      return;
+    std::size_t beside = 0;
+    for (const Index q : rings.neighbors.row (p))
+      beside += bends_both_ways[q];
+    is_noisy[p] = 2 * beside >= rings.neighbors.row (p).size () ? 1 : 0;
+  });
+  if (std::find (is_noisy.begin (), is_noisy.end (), 1) == is_noisy.end ())
+    return original;
+  widen (is_noisy);
+  // Largest displacement of each vertex: by the longest mean length of edges around it.
+  std::vector<double> reach (original.size (), 0.0);
+  visit ([&] (Index p) {
+    for (const Index q : rings.neighbors.row (p))
+      reach[p] += FARTHEST * (original[q] - original[p]).norm ();
+    reach[p] /= static_cast<double> (rings.neighbors.row (p).size ());
+  });
+  widen (reach);
+  Positions current = original, next = original;
+  for (int round = 0; round < MOST_ROUNDS; ++round) {
+    measureBends (current, is_noisy);
+    std::atomic<bool> has_moved{false};
+    visit ([&] (Index p) {
+      if (is_noisy[p] == 0 || !(bendBothWays (p) > SMOOTH)) {
+        next[p] = current[p];
+        return;
+      }
+      const Vector3d way = targetOf (current, p) - original[p];
+      const double length = way.norm ();
+      next[p] = original[p] + way * (length > reach[p] ? reach[p] / length : 1.0);
+      has_moved = true;
+    });
+    current.swap (next);
+    if (!has_moved)
+      break;
   }
-};
-
-} // namespace
-
-Positions
-smoothNoise (const TriangleMesh& mesh, const Positions& positions, const SmoothingLimits& limits,
-             const RunContext& run)
-{
-  return Smoother{mesh, positions, limits, run}.smoothed ();
+  return current;
 }
 
 } // namespace pcl::floater

@@ -1,48 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Texture coordinates of a mesh: charts, their layout, the atlas.
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "core/problem.h"
 #include "floater/solvers/solver.h"
-#include "texture/atlas.h"
-#include "texture/chart_mesh.h"
+#include "texture/chart_layout.h"
 #include "texture/charts.h"
-#include "texture/smoothing.h"
 
 #include <pcl/surface/floater/texture_coordinates.h>
 
 namespace pcl::floater {
 namespace {
-// The limits of all steps.
-struct TextureLimits
-{
-  SmoothingLimits smoothing;
-  ChartLimits charts;
-  DescentLimits descent;
-  AtlasLimits atlas;
+// Stretch above which charts of the true surface are cut: roughness that is left after smoothing has
+// less.
+constexpr double TOO_MUCH = 1.5;
 
-  // Stretch above which charts of the true surface are cut: roughness that is left after smoothing
-  // has less.
-  double too_much = 1.5;
+// Stretch of the true surface in the layout of the smoothed one, above which it is laid out without
+// smoothing, if more than this share of the vertices was moved (otherwise above TOO_MUCH). Generated
+// planes, boxes and terrain with noise of up to three spacings stay below 3; thin parts that were
+// flattened by smoothing do not.
+constexpr double WRONG = 4.0, NOISY = 0.5;
 
-  // Stretch of the true surface in the layout of the smoothed one, above which it is laid out
-  // without smoothing, if more than this share of the vertices was moved (otherwise above
-  // too_much). Generated planes, boxes and terrain with noise of up to three spacings stay below
-  // 3; thin parts that were flattened by smoothing do not.
-  double wrong = 4.0;
-  double noisy = 0.5;
-
-  // Steps of the descent on the true surface, after the smoothed one; limits the time, as noise
-  // prevents convergence.
-  int steps_to_noise = 20;
-
-  double half = 0.6; // share of the triangles in the larger half of a chart that is cut, at most
-
-  // Facets for cutting a chart: one for so many triangles, with a minimum. They decide the time of
-  // the search for each cut.
-  std::size_t triangles_per_facet = 8;
-  std::size_t facets_of_cut = 1'000;
-};
+// Steps of the descent on the true surface, after the smoothed one; limits the time, as noise prevents
+// convergence.
+constexpr int STEPS_TO_NOISE = 20;
 
 using Layouts = std::vector<ChartLayout>;
 
@@ -62,43 +44,39 @@ struct ChartCutter
   const TriangleMesh& mesh;
   const Positions& positions;
   double largest_stretch;
-  const TextureLimits& limits;
+  DescentLimits limits;
   RunContext run;
 
   ChartLayout layOut (std::vector<Index> chart) const
   {
-    return layOutChart (mesh.triangles, std::move (chart), positions, limits.descent, run);
+    return layOutChart (mesh.triangles, std::move (chart), positions, limits, run);
   }
 
-  // Cuts a chart with too much stretch, or without layout. Each piece has fewer triangles, and one
-  // has a layout.
+  // Cuts a chart with too much stretch, or without layout, in two, or in more where their union would be
+  // no disc. Each piece has fewer triangles, and one has a layout.
   void layOutParts (ChartLayout chart, Layouts& result) const
   {
-    if (chart.triangles.size () == 1 || (!chart.uv.empty () && chart.stretch <= largest_stretch)) {
+    constexpr double HALF = 0.6; // share of the triangles in the larger part, at most
+    // Facets: one for so many triangles, with a minimum. They decide the time of the search.
+    constexpr std::size_t TRIANGLES_PER_FACET = 8, LEAST_FACETS = 1'000;
+    const std::size_t size = chart.triangles.size ();
+    if (size == 1 || (!chart.uv.empty () && chart.stretch <= largest_stretch)) {
       result.push_back (std::move (chart));
       return;
     }
-    const std::vector<std::vector<Index>> parts = cut (chart.triangles);
+    ChartLimits limits_of_parts;
+    limits_of_parts.halves = true;
+    limits_of_parts.facets =
+        std::min (limits_of_parts.facets, std::max (LEAST_FACETS, size / TRIANGLES_PER_FACET));
+    limits_of_parts.most_triangles =
+        std::max<std::size_t> (1, static_cast<std::size_t> (HALF * static_cast<double> (size)));
+    std::vector<std::vector<Index>> parts = listsOf (findCharts (
+        chart.chart.mesh, valuesAt (positions, chart.chart.points), limits_of_parts, run));
+    for (std::vector<Index>& part : parts)
+      part = valuesAt (chart.triangles, part);
     chart = {};
-    for (const std::vector<Index>& part : parts)
-      layOutParts (layOut (part), result);
-  }
-
-  // Cuts a chart of several triangles in two, or in more where their union would be no disc.
-  std::vector<std::vector<Index>> cut (const std::vector<Index>& chart) const
-  {
-    const MeshPiece part = cutOut (mesh.triangles, chart, positions);
-    ChartLimits halves = limits.charts;
-    halves.facets = std::min (
-        halves.facets, std::max (limits.facets_of_cut, chart.size () / limits.triangles_per_facet));
-    halves.most_triangles = std::max<std::size_t> (
-        1, static_cast<std::size_t> (limits.half * static_cast<double> (chart.size ())));
-    std::vector<std::vector<Index>> lists =
-        listsOf (findCharts (part.mesh, part.positions, true, halves, run));
-    for (std::vector<Index>& list : lists)
-      for (Index& t : list)
-        t = chart[t];
-    return lists;
+    for (std::vector<Index>& part : parts)
+      layOutParts (layOut (std::move (part)), result);
   }
 };
 
@@ -107,7 +85,7 @@ struct ChartCutter
 // \return the charts, in the order of their first triangles; each has a layout
 Layouts
 layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positions& smooth,
-              const TextureOptions& options, const TextureLimits& limits, const RunContext& run)
+              const TextureOptions& options, const RunContext& run)
 {
   const double largest_stretch = options.largest_stretch;
   const SingleBlasThread single; // more are slower on small matrices, and change the last digits
@@ -116,8 +94,8 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
   // has removed more than noise, the chart is laid out without it.
   const auto finish = [&] (ChartLayout first, const ChartCutter& by_smooth,
                            const ChartCutter& by_true) {
-    DescentLimits descent = limits.descent;
-    descent.steps = limits.steps_to_noise;
+    DescentLimits descent;
+    descent.steps = STEPS_TO_NOISE;
     descent.newton_steps = 0;
     Layouts parts, finished;
     by_smooth.layOutParts (std::move (first), parts);
@@ -128,7 +106,7 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
           static_cast<double> (moved) / static_cast<double> (chart.chart.points.size ());
       if (moved > 0)
         refineLayout (positions, descent, within, chart);
-      const double most = share > limits.noisy ? limits.wrong : limits.too_much;
+      const double most = share > NOISY ? WRONG : TOO_MUCH;
       ChartLayout other;
       if (moved > 0 && chart.stretch > std::max (most, largest_stretch))
         other = by_true.layOut (chart.triangles);
@@ -150,8 +128,8 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
   Flags is_done (mesh.triangles.size (), 0);
   if (options.whole_discs) {
     constexpr double ANY_STRETCH = std::numeric_limits<double>::infinity ();
-    TextureLimits whole = limits;
-    whole.descent.most_on_circle = std::numeric_limits<std::size_t>::max ();
+    DescentLimits whole;
+    whole.most_on_circle = std::numeric_limits<std::size_t>::max ();
     const ChartCutter by_smooth{mesh, smooth, ANY_STRETCH, whole, within};
     const ChartCutter by_true{mesh, positions, ANY_STRETCH, whole, within};
     layOutEach (listsOf (findComponents (mesh, run)), [&] (const std::vector<Index>& triangles) {
@@ -166,12 +144,10 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
     });
   }
   run.beginStep (0.1);
-  const std::vector<std::vector<Index>> lists =
-      listsOf (findCharts (mesh, smooth, false, limits.charts, run));
+  const std::vector<std::vector<Index>> lists = listsOf (findCharts (mesh, smooth, {}, run));
   run.beginStep (0.95);
-  const ChartCutter by_smooth{mesh, smooth, largest_stretch, limits, within};
-  const ChartCutter by_true{mesh, positions, std::max (largest_stretch, limits.too_much), limits,
-                            within};
+  const ChartCutter by_smooth{mesh, smooth, largest_stretch, {}, within};
+  const ChartCutter by_true{mesh, positions, std::max (largest_stretch, TOO_MUCH), {}, within};
   layOutEach (lists, [&] (const std::vector<Index>& triangles) {
     return is_done[triangles.front ()] != 0
                ? Layouts{}
@@ -181,23 +157,6 @@ layOutCharts (const TriangleMesh& mesh, const Positions& positions, const Positi
     return a.triangles.front () < b.triangles.front ();
   });
   return result;
-}
-
-Problem
-checkMesh (const Positions& positions, const std::vector<Triangle>& triangles)
-{
-  for (const Triangle& t : triangles)
-    for (const Index p : t) {
-      if (p >= positions.size ())
-        return {RunStatus::INVALID_INDICES, "a triangle names point " + std::to_string (p) +
-                                                ", but there are only " +
-                                                std::to_string (positions.size ()) + " points"};
-      if (!positions[p].allFinite ())
-        return {RunStatus::INVALID_INDICES, "point " + std::to_string (p) +
-                                                " of a triangle has no finite position; texture "
-                                                "coordinates need one for each vertex"};
-    }
-  return {};
 }
 
 // Coordinates by point, then by chart, so that the coordinates of a point are adjacent.
@@ -232,20 +191,6 @@ takeCoordinates (const std::vector<ChartLayout>& charts, std::size_t points, std
   }
 }
 
-void
-findSeams (const TriangleMesh& mesh, const Positions& positions, TextureCoordinates& result)
-{
-  for (Index t = 0; t < mesh.triangles.size (); ++t)
-    for (std::uint8_t side = 0; side < 3; ++side) {
-      const Index other = mesh.neighbors[t][side];
-      if (other == NONE || other < t || result.charts[other] == result.charts[t])
-        continue;
-      const MeshEdge edge{t, side};
-      result.seams.push_back ({mesh.from (edge), mesh.to (edge)});
-      result.seam_length += (positions[mesh.to (edge)] - positions[mesh.from (edge)]).norm ();
-    }
-}
-
 // All steps. Sets everything except status and message.
 Problem
 makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>& triangles,
@@ -256,8 +201,19 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
     return {RunStatus::INVALID_OPTION, "the largest stretch of a chart must be 1 or more"};
   if (options.threads < 0)
     return {RunStatus::INVALID_OPTION, "the number of threads must be 0 or more"};
-  if (Problem problem = checkMesh (positions, triangles))
-    return problem;
+  double largest = 0.0; // coordinate
+  for (const Triangle& t : triangles)
+    for (const Index p : t) {
+      if (p >= positions.size ())
+        return {RunStatus::INVALID_INDICES, "a triangle names point " + std::to_string (p) +
+                                                ", but there are only " +
+                                                std::to_string (positions.size ()) + " points"};
+      if (!positions[p].allFinite ())
+        return {RunStatus::INVALID_INDICES, "point " + std::to_string (p) +
+                                                " of a triangle has no finite position; texture "
+                                                "coordinates need one for each vertex"};
+      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
+    }
   TriangleMesh mesh;
   mesh.triangles = triangles;
   if (!mesh.connect (positions.size (), run))
@@ -267,19 +223,14 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
 
   // Scaled by a power of two to about 1, if there are triangles: squares and cubes of lengths are
   // finite then. Points without a triangle stay as they are.
-  double largest = 0.0;
-  for (const Triangle& t : triangles)
-    for (const Index p : t)
-      largest = std::max (largest, positions[p].cwiseAbs ().maxCoeff ());
   const double unit = largest > 0.0 ? std::ldexp (1.0, std::ilogb (largest)) : 1.0;
   Positions places = positions;
   for (Vector3d& place : places)
     place /= unit;
 
-  const TextureLimits limits;
   // Charts (discs) and their layouts, on the surface without its noise.
-  std::vector<ChartLayout> charts = layOutCharts (
-      mesh, places, smoothNoise (mesh, places, limits.smoothing, run), options, limits, run);
+  std::vector<ChartLayout> charts =
+      layOutCharts (mesh, places, smoothNoise (mesh, places, run), options, run);
 
   // All charts in one square, in single precision. Charts of which that flips triangles, such as of
   // sizes that differ by more than its digits, are taken apart.
@@ -298,7 +249,7 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
         for (const Index t : chart.triangles)
           kept.push_back (layOutChart (triangles, {t}, places, {}, run));
     charts = std::move (kept);
-    result.gutter = packCharts (charts, limits.atlas, run);
+    result.gutter = packCharts (charts, run);
     takeCoordinates (charts, positions.size (), triangles.size (), result);
     uv.clear ();
     for (const Eigen::Vector2f& rounded : result.coordinates)
@@ -307,7 +258,15 @@ makeTextureCoordinates (const Positions& positions, const std::vector<Triangle>&
   }
   result.chart_count = charts.size ();
   result.flipped = flipped.size ();
-  findSeams (mesh, places, result);
+  for (Index t = 0; t < triangles.size (); ++t)
+    for (std::uint8_t side = 0; side < 3; ++side) {
+      const Index other = mesh.neighbors[t][side];
+      if (other == NONE || other < t || result.charts[other] == result.charts[t])
+        continue;
+      const Index from = mesh.from ({t, side}), to = mesh.to ({t, side});
+      result.seams.push_back ({from, to});
+      result.seam_length += distanceBetween (places, from, to);
+    }
   result.seam_length *= unit;
   const StretchSums sums = stretchOf (triangles, places, result.corners, uv);
   result.stretch = sums.mean ();

@@ -209,33 +209,6 @@ orderSegment (const Positions& positions, const std::vector<Index>& segment, Ind
   return valuesAt (segment, shortest);
 }
 
-// Points whose widest sector without a neighbour exceeds the opening angle, ascending. Neighbours
-// are projected on the tangent plane of the point. O(n k log k).
-// \param opening_angle in radians
-std::vector<Index>
-openingAnglePoints (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
-                    double opening_angle, const RunContext& run)
-{
-  Flags wide (positions.size (), 0);
-  parallelPoints<PlanarStar, std::vector<PlanarNeighbor>> (
-      run, positions.size (), [&] (Index p, auto& star, auto& planar) {
-        const TangentFrame frame (normals[p].cast<double> ());
-        planar.clear ();
-        for (const Index q : neighbors.row (p)) {
-          const Vector2d projected = frame.project (positions[q] - positions[p]);
-          if (projected != Vector2d::Zero ())
-            planar.push_back ({projected, q});
-        }
-        star.make (planar);
-        wide[p] = star.openingAngle () > opening_angle ? 1 : 0;
-      });
-  std::vector<Index> points;
-  for (std::size_t p = 0; p < wide.size (); ++p)
-    if (wide[p] != 0)
-      points.push_back (static_cast<Index> (p));
-  return points;
-}
-
 } // namespace
 
 std::vector<std::vector<Index>>
@@ -370,9 +343,25 @@ publishedLoop (const Points& points, const LocalGeometry& geometry, const Bounda
                const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
+  // The widest sector without a neighbour in the tangent plane exceeds the opening angle.
+  Flags is_candidate (positions.size (), 0);
+  parallelPoints<PlanarStar, std::vector<PlanarNeighbor>> (
+      run, positions.size (), [&] (Index p, auto& star, auto& planar) {
+        const TangentFrame frame (geometry.stars.normals[p].cast<double> ());
+        planar.clear ();
+        for (const Index q : geometry.neighbors.row (p)) {
+          const Vector2d projected = frame.project (positions[q] - positions[p]);
+          if (projected != Vector2d::Zero ())
+            planar.push_back ({projected, q});
+        }
+        star.make (planar);
+        is_candidate[p] = star.openingAngle () > options.opening_angle * DEGREE ? 1 : 0;
+      });
+  std::vector<Index> candidates;
+  for (Index p = 0; p < positions.size (); ++p)
+    if (is_candidate[p] != 0)
+      candidates.push_back (p);
   Boundary boundary;
-  const std::vector<Index> candidates = openingAnglePoints (
-      positions, geometry.neighbors, geometry.stars.normals, options.opening_angle * DEGREE, run);
   boundary.candidates = candidates.size ();
   const std::vector<std::vector<Index>> clusters = clusterBoundaryPoints (
       positions, candidates, options.cluster_tolerance * points.diagonal, options.cluster_k, run);

@@ -48,39 +48,6 @@ measureResidual (const LinearSystem& system, Eigen::Index side,
 
 using Order = Eigen::PermutationMatrix<Eigen::Dynamic>;
 
-// Calls METIS with a state of rand () of its own.
-int
-callMetis (cholmod_sparse& pattern, int* order, cholmod_common& common)
-{
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock (mutex);
-  std::array<char, 128> state{}; // as many bytes as rand () has in the beginning
-  char* const before = initstate (1, state.data (), state.size ());
-  constexpr int POSTORDER = 1;
-  const int done = cholmod_metis (&pattern, nullptr, 0, POSTORDER, order, &common);
-  setstate (before);
-  return done;
-}
-
-// Approximate minimum degree (Amestoy, Davis and Duff 1996), or nested dissection by METIS (Karypis
-// and Kumar 1998).
-Order
-orderByCholmod (const SystemMatrix& symmetric, Ordering ordering)
-{
-  Order order (symmetric.rows ());
-  cholmod_sparse pattern = Eigen::viewAsCholmod (symmetric.selfadjointView<Eigen::Lower> ());
-  cholmod_common common{};
-  cholmod_start (&common);
-  common.print = 0;
-  const int done = ordering == Ordering::METIS
-                       ? callMetis (pattern, order.indices ().data (), common)
-                       : cholmod_amd (&pattern, nullptr, 0, order.indices ().data (), &common);
-  cholmod_finish (&common);
-  if (done == 0)
-    throw std::bad_alloc (); // the pattern is valid; METIS does not tell what it lacks
-  return order;
-}
-
 // Small bandwidth (Cuthill and McKee 1969; George 1971).
 Order
 reverseCuthillMckee (const SystemMatrix& symmetric)
@@ -101,8 +68,9 @@ reverseCuthillMckee (const SystemMatrix& symmetric)
 }
 
 // An order of the unknowns (TW 385, section 4.2 and Figure 4), made from the pattern of A + A^T.
-// indices () [i] is the unknown that comes i-th. AMD and METIS are called through CHOLMOD, and follow
-// the elimination tree. METIS draws from rand (), of which it gets a state of its own; another
+// indices () [i] is the unknown that comes i-th. AMD (approximate minimum degree; Amestoy, Davis and
+// Duff 1996) and METIS (nested dissection; Karypis and Kumar 1998) are called through CHOLMOD, and
+// follow the elimination tree. METIS draws from rand (), of which it gets a state of its own; another
 // thread that draws meanwhile changes the order, so that only one thread is in METIS at a time.
 // \param ordering AMD, METIS or REVERSE_CUTHILL_MCKEE
 // \throws std::bad_alloc
@@ -110,30 +78,41 @@ Order
 orderUnknowns (const SystemMatrix& matrix, Ordering ordering)
 {
   const SystemMatrix symmetric = matrix + SystemMatrix (matrix.transpose ());
-  return ordering == Ordering::REVERSE_CUTHILL_MCKEE ? reverseCuthillMckee (symmetric)
-                                                     : orderByCholmod (symmetric, ordering);
+  if (ordering == Ordering::REVERSE_CUTHILL_MCKEE)
+    return reverseCuthillMckee (symmetric);
+  Order order (symmetric.rows ());
+  cholmod_sparse pattern = Eigen::viewAsCholmod (symmetric.selfadjointView<Eigen::Lower> ());
+  cholmod_common common{};
+  cholmod_start (&common);
+  common.print = 0;
+  int done = 0;
+  if (ordering == Ordering::AMD)
+    done = cholmod_amd (&pattern, nullptr, 0, order.indices ().data (), &common);
+  else {
+    static std::mutex mutex;
+    const std::lock_guard<std::mutex> lock (mutex);
+    std::array<char, 128> state{}; // as many bytes as rand () has in the beginning
+    char* const before = initstate (1, state.data (), state.size ());
+    constexpr int POSTORDER = 1;
+    done = cholmod_metis (&pattern, nullptr, 0, POSTORDER, order.indices ().data (), &common);
+    setstate (before);
+  }
+  cholmod_finish (&common);
+  if (done == 0)
+    throw std::bad_alloc (); // the pattern is valid; METIS does not tell what it lacks
+  return order;
 }
 
 using Vector = Eigen::VectorXd;
 
-// Each solver fills `uv` and the figures of the solution, or tells the problem. solve () looks at the
-// residual and the pivots.
-
-class IncompleteFactors : public Eigen::IncompleteLUT<double>
+struct IncompleteFactors : Eigen::IncompleteLUT<double>
 {
-public:
   std::size_t nonZeros () const { return static_cast<std::size_t> (m_lu.nonZeros ()); }
 };
 
 // The factors as a preconditioner, at whose every use the run is polled for cancellation.
-struct Preconditioner
+struct Preconditioner : Eigen::IdentityPreconditioner
 {
-  template <typename AnyMatrix>
-  Preconditioner& compute (const AnyMatrix&)
-  {
-    return *this;
-  }
-  Eigen::ComputationInfo info () const { return Eigen::Success; }
   Vector solve (const Vector& rest) const
   {
     run->poll ();
@@ -144,51 +123,19 @@ struct Preconditioner
   const RunContext* run = nullptr;
 };
 
-// Solves for one right-hand side.
-// \return the solution, and iterations
-std::pair<Vector, int>
-iterate (const LinearSystem& system, Eigen::Index side, const IncompleteFactors& factors,
-         const SolverOptions& options, const RunContext& run)
-{
-  Eigen::BiCGSTAB<SystemMatrix, Preconditioner> solver; // van der Vorst 1992
-  solver.preconditioner () = {&factors, &run};
-  solver.compute (system.matrix);
-  Vector rest = system.rhs.col (side), solution = Vector::Zero (rest.size ()), step;
-  double norm = rest.norm (), target = options.tolerance * norm;
-  int iterations = 0;
-  while (norm > target && iterations < options.max_iterations) {
-    solver.setTolerance (target / norm);
-    solver.setMaxIterations (options.max_iterations - iterations);
-    step = solver.solve (rest);
-    iterations += static_cast<int> (solver.iterations ());
-    step += solution;
-    Residual residual = measureResidual (system, side, step);
-    const double next_norm = residual.rest.norm ();
-    if (!(next_norm < norm))
-      break;
-    std::swap (solution, step);
-    rest = std::move (residual.rest);
-    const bool stalls = next_norm > 0.5 * norm;
-    norm = next_norm;
-    target = residual.target (options.tolerance);
-    if (stalls)
-      break;
-  }
-  return {std::move (solution), iterations};
-}
-
-// BiCGSTAB with Eigen's IncompleteLUT: one incomplete factorization, then each coordinate by
-// itself. The residual that BiCGSTAB updates drifts away from the true one. So the true one is
-// measured when it stops, and it starts again on what is left until the tolerance is reached, the
-// iterations of all rounds are used up, or a round does not halve the residual. Eigen counts fill
-// in mean rows of the matrix, so ilut_fill is rounded up to a multiple of these.
+// BiCGSTAB (van der Vorst 1992) with Eigen's IncompleteLUT: one incomplete factorization, then each
+// coordinate by itself. The residual that BiCGSTAB updates drifts away from the true one. So the true
+// one is measured when it stops, and it starts again on what is left until the tolerance is reached,
+// the iterations of all rounds are used up, or a round does not halve the residual. Fills `uv` and the
+// figures of the solution; conclude () looks at them.
 void
 solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, const RunContext& run,
                    Solution& solution)
 {
   const Eigen::Index n = system.rhs.rows ();
   IncompleteFactors factors;
-  // Eigen counts the fill in mean rows of the matrix. Half of it goes to L, and half to U.
+  // Eigen counts the fill in mean rows of the matrix, so it is rounded up to a multiple of these. Half
+  // of it goes to L, and half to U.
   const double mean_row = static_cast<double> (system.nonzeros ()) / static_cast<double> (n);
   const double fill = std::ceil (2.0 * options.ilut_fill / mean_row);
   // Eigen reserves so many entries, and counts them in an int without looking.
@@ -202,10 +149,31 @@ solveWithBicgstab (const LinearSystem& system, const SolverOptions& options, con
   solution.nnz_factors = factors.nonZeros ();
 
   solution.uv.resize (n, 2);
-  parallelTasks (run, 2, [&] (std::size_t side) {
-    const auto at = static_cast<Eigen::Index> (side);
-    const auto [unknowns, iterations] = iterate (system, at, factors, options, run);
-    solution.uv.col (at) = unknowns;
+  parallelTasks (run, 2, [&] (std::size_t coordinate) {
+    const auto side = static_cast<Eigen::Index> (coordinate);
+    Eigen::BiCGSTAB<SystemMatrix, Preconditioner> solver;
+    solver.preconditioner () = {{}, &factors, &run};
+    solver.compute (system.matrix);
+    Vector rest = system.rhs.col (side), best = Vector::Zero (n), step;
+    double norm = rest.norm (), target = options.tolerance * norm;
+    int iterations = 0;
+    for (bool goes_on = true; goes_on && norm > target && iterations < options.max_iterations;) {
+      solver.setTolerance (target / norm);
+      solver.setMaxIterations (options.max_iterations - iterations);
+      step = solver.solve (rest);
+      iterations += static_cast<int> (solver.iterations ());
+      step += best;
+      Residual residual = measureResidual (system, side, step);
+      const double next_norm = residual.rest.norm ();
+      if (!(next_norm < norm))
+        break;
+      std::swap (best, step);
+      rest = std::move (residual.rest);
+      goes_on = next_norm <= 0.5 * norm;
+      norm = next_norm;
+      target = residual.target (options.tolerance);
+    }
+    solution.uv.col (side) = best;
     (side == 0 ? solution.iterations_u : solution.iterations_v) =
         static_cast<std::size_t> (iterations);
   });
@@ -251,18 +219,6 @@ conclude (const LinearSystem& system, const SolverOptions& options, Solution& so
   }
   if (solution.problem)
     solution.uv.resize (0, 2);
-}
-
-void
-solveAsItIs (const LinearSystem& system, Ordering ordering, const SolverOptions& options,
-             const RunContext& run, Solution& solution)
-{
-  if (options.method == Solver::BICGSTAB_ILUT)
-    solveWithBicgstab (system, options, run, solution);
-  else
-    solveWithUmfpack (system, ordering, run, solution);
-  if (solution.uv.rows () > 0)
-    conclude (system, options, solution);
 }
 
 } // namespace
@@ -335,21 +291,29 @@ solve (const LinearSystem& system, const SolverOptions& options, const RunContex
     solution.reciprocal_condition = 1.0;
     return solution;
   }
+  // Solves a system as it comes.
+  const auto solveAsItIs = [&] (const LinearSystem& as_it_is, Ordering ordering) {
+    if (options.method == Solver::BICGSTAB_ILUT)
+      solveWithBicgstab (as_it_is, options, run, solution);
+    else
+      solveWithUmfpack (as_it_is, ordering, run, solution);
+    if (solution.uv.rows () > 0)
+      conclude (as_it_is, options, solution);
+  };
   Ordering ordering = options.ordering;
   if (options.method == Solver::UMFPACK && ordering == Ordering::AUTOMATIC)
     ordering = system.unknowns () > METIS_UNKNOWNS ? Ordering::METIS : Ordering::AMD;
   if (ordering == Ordering::AUTOMATIC || ordering == Ordering::NATURAL ||
       (options.method == Solver::UMFPACK && ordering == Ordering::AMD)) {
-    solveAsItIs (system, ordering, options, run, solution);
+    solveAsItIs (system, ordering);
     return solution;
   }
-  // Any solver can solve the reordered system as it comes.
   const Order order = orderUnknowns (system.matrix, ordering);
   const Order place = order.inverse ();
   LinearSystem ordered;
   ordered.matrix = system.matrix.twistedBy (place);
   ordered.rhs = place * system.rhs;
-  solveAsItIs (ordered, Ordering::NATURAL, options, run, solution);
+  solveAsItIs (ordered, Ordering::NATURAL);
   if (!solution.problem)
     solution.uv = order * Eigen::MatrixX2d (solution.uv);
   return solution;

@@ -4,9 +4,10 @@
 
 #include "core/parallel.h"
 
+#include <Eigen/UmfPackSupport>
+
 #include <dlfcn.h>
 #include <sys/mman.h>
-#include <umfpack.h>
 
 #include <memory>
 #include <mutex>
@@ -18,35 +19,8 @@ namespace {
 // memory, and holds factors of up to 2 GB; there are about 1.2 kB of them per unknown.
 constexpr std::size_t LONG_INDEX_UNKNOWNS = 1000000;
 
-// UMFPACK's two integer types.
-struct IntInterface
-{
-  using Int = int;
-  static constexpr auto SYMBOLIC = &umfpack_di_qsymbolic;
-  static constexpr auto NUMERIC = &umfpack_di_numeric;
-  static constexpr auto SOLVE = &umfpack_di_solve;
-  static constexpr auto FREE_SYMBOLIC = &umfpack_di_free_symbolic;
-  static constexpr auto FREE_NUMERIC = &umfpack_di_free_numeric;
-};
-
-struct LongInterface
-{
-  using Int = SuiteSparse_long;
-  static constexpr auto SYMBOLIC = &umfpack_dl_qsymbolic;
-  static constexpr auto NUMERIC = &umfpack_dl_numeric;
-  static constexpr auto SOLVE = &umfpack_dl_solve;
-  static constexpr auto FREE_SYMBOLIC = &umfpack_dl_free_symbolic;
-  static constexpr auto FREE_NUMERIC = &umfpack_dl_free_numeric;
-};
-
 // UMFPACK's handles are freed through a pointer to them.
-template <void (*release) (void**)>
-struct Release
-{
-  void operator() (void* handle) const { release (&handle); }
-};
-template <void (*release) (void**)>
-using Handle = std::unique_ptr<void, Release<release>>;
+using Handle = std::unique_ptr<void, void (*) (void*)>;
 
 using Control = std::array<double, UMFPACK_CONTROL>;
 using Info = std::array<double, UMFPACK_INFO>;
@@ -67,13 +41,20 @@ accept (const Info& info, const char* call, Solution& solution)
   return false;
 }
 
-template <typename Interface, typename Int = typename Interface::Int>
+// Eigen has overloads of UMFPACK's functions for either type of indices, but for one.
+template <typename Int>
 void
 solveWithIndices (const LinearSystem& system, const Control& control, const RunContext& run,
                   Solution& solution)
 {
+  constexpr auto analyze = [] {
+    if constexpr (std::is_same_v<Int, int>)
+      return &umfpack_di_qsymbolic;
+    else
+      return &umfpack_dl_qsymbolic;
+  }();
   Info info{};
-  Handle<Interface::FREE_NUMERIC> numeric;
+  Handle numeric (nullptr, [] (void* it) { Eigen::umfpack_free_numeric (&it, 0.0, Int{}); });
   { // the matrix is not needed afterwards: there is no refinement
     const auto n = static_cast<Int> (system.unknowns ());
     const int *first = system.matrix.outerIndexPtr (), *column = system.matrix.innerIndexPtr ();
@@ -82,14 +63,14 @@ solveWithIndices (const LinearSystem& system, const Control& control, const RunC
     void* handle = nullptr;
     std::vector<Int> order (control[UMFPACK_FIXQ] > 0.0 ? system.unknowns () : 0);
     std::iota (order.begin (), order.end (), Int{0});
-    Interface::SYMBOLIC (n, n, offsets.data (), columns.data (), values,
-                         order.empty () ? nullptr : order.data (), &handle, control.data (),
-                         info.data ());
-    const Handle<Interface::FREE_SYMBOLIC> symbolic (std::exchange (handle, nullptr));
+    analyze (n, n, offsets.data (), columns.data (), values,
+             order.empty () ? nullptr : order.data (), &handle, control.data (), info.data ());
+    const Handle symbolic (std::exchange (handle, nullptr),
+                           [] (void* it) { Eigen::umfpack_free_symbolic (&it, 0.0, Int{}); });
     if (!accept (info, "symbolic analysis", solution))
       return;
-    Interface::NUMERIC (offsets.data (), columns.data (), values, symbolic.get (), &handle,
-                        control.data (), info.data ());
+    Eigen::umfpack_numeric (offsets.data (), columns.data (), values, symbolic.get (), &handle,
+                            control.data (), info.data ());
     numeric.reset (handle);
   }
   // UMFPACK leaves -1 for figures that it did not compute.
@@ -107,9 +88,10 @@ solveWithIndices (const LinearSystem& system, const Control& control, const RunC
   std::array<Info, 2> of_side{};
   parallelTasks (run, 2, [&] (std::size_t side) {
     const auto at = static_cast<Eigen::Index> (side);
-    Interface::SOLVE (UMFPACK_At, nullptr, nullptr, nullptr, uv.col (at).data (),
-                      system.rhs.col (at).data (), numeric.get (), control.data (),
-                      of_side[side].data ());
+    const Int* const no_index = nullptr;
+    Eigen::umfpack_solve (UMFPACK_At, no_index, no_index, nullptr, uv.col (at).data (),
+                          system.rhs.col (at).data (), numeric.get (), control.data (),
+                          of_side[side].data ());
   });
   if (accept (of_side[0], "solution", solution) && accept (of_side[1], "solution", solution))
     solution.uv = std::move (uv);
@@ -130,24 +112,20 @@ blasFunction (const char* name)
   return reinterpret_cast<Function> (dlsym (RTLD_DEFAULT, name));
 }
 
-// OpenBLAS maps a work buffer at its first use, and retries forever if memory is short.
-bool
-hasRoomForBuffer ()
-{
-  constexpr std::size_t BUFFER_BYTES = std::size_t{128} << 20; // of OpenBLAS 0.3 on x86-64
-  void* const room = mmap (nullptr, BUFFER_BYTES, PROT_READ | PROT_WRITE,
-                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  return room != MAP_FAILED && munmap (room, BUFFER_BYTES) == 0;
-}
-
 } // namespace
 
 SingleBlasThread::SingleBlasThread ()
 {
   const auto get = blasFunction<Get> ("openblas_get_num_threads");
   const auto set = blasFunction<Set> ("openblas_set_num_threads");
-  if (set != nullptr && !hasRoomForBuffer ())
-    throw std::bad_alloc ();
+  if (set != nullptr) {
+    // OpenBLAS maps a work buffer at its first use, and retries forever if memory is short.
+    constexpr std::size_t BUFFER_BYTES = std::size_t{128} << 20; // of OpenBLAS 0.3 on x86-64
+    void* const room = mmap (nullptr, BUFFER_BYTES, PROT_READ | PROT_WRITE,
+                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED || munmap (room, BUFFER_BYTES) != 0)
+      throw std::bad_alloc ();
+  }
   const std::lock_guard<std::mutex> lock (blas_mutex);
   if (blas_users++ > 0 || get == nullptr || set == nullptr)
     return;
@@ -181,11 +159,11 @@ solveWithUmfpack (const LinearSystem& system, Ordering ordering, const RunContex
   }
   const bool is_long = system.unknowns () > LONG_INDEX_UNKNOWNS;
   if (!is_long)
-    solveWithIndices<IntInterface> (system, control, run, solution);
+    solveWithIndices<int> (system, control, run, solution);
   // UMFPACK reports running out of 32-bit indices as running out of memory.
   if (is_long || solution.problem.status == RunStatus::OUT_OF_MEMORY) {
     solution.problem = {};
-    solveWithIndices<LongInterface> (system, control, run, solution);
+    solveWithIndices<SuiteSparse_long> (system, control, run, solution);
   }
 }
 

@@ -5,7 +5,6 @@
 #include "mesh/known_meshes.h"
 #include "texture/chart_layout.h"
 #include "texture/charts.h"
-#include "texture/smoothing.h"
 
 #include <gtest/gtest.h>
 
@@ -170,8 +169,10 @@ TEST (ChartLayout, NothingLiesAboveItself)
 TEST (Charts, AreCutInTwoIfTheyHaveToBe)
 {
   const Mesh sheet = samples::sheet (10);
-  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, false, {}, 1).count, 1U);
-  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, true, {}, 1).count, 2U);
+  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, {}, 1).count, 1U);
+  ChartLimits limits;
+  limits.halves = true;
+  EXPECT_EQ (findCharts (connected (sheet), sheet.positions, limits, 1).count, 2U);
 }
 
 // Facets of several triangles, as large meshes have them.
@@ -200,7 +201,7 @@ TEST (Smoothing, MovesNoiseOnly)
   for (Eigen::Vector3d& p : roof.positions)
     p.z () = std::abs (p.x () - 0.5) - std::abs (p.y () - 0.5);
   for (const Mesh& mesh : {torus (40, 16), tetrahedron (), roof})
-    EXPECT_EQ (smoothNoise (connected (mesh), mesh.positions, {}, 1), mesh.positions);
+    EXPECT_EQ (smoothNoise (connected (mesh), mesh.positions, 1), mesh.positions);
 
   Mesh noisy = noisySheet (20, 0.05, 1);
   const auto sumOfSquares = [] (const Positions& positions) {
@@ -209,13 +210,13 @@ TEST (Smoothing, MovesNoiseOnly)
       sum += p.z () * p.z ();
     return sum;
   };
-  Positions smooth = smoothNoise (connected (noisy), noisy.positions, {}, 1);
+  Positions smooth = smoothNoise (connected (noisy), noisy.positions, 1);
   EXPECT_LT (sumOfSquares (smooth), 0.25 * sumOfSquares (noisy.positions));
   // So it is one chart, or few.
-  EXPECT_LE (findCharts (connected (noisy), smooth, false, {}, 1).count, 2U);
+  EXPECT_LE (findCharts (connected (noisy), smooth, {}, 1).count, 2U);
   // A vertex of one triangle, at a corner, does not come to lie between its neighbours.
   noisy = noisySheet (12, 0.1, 5);
-  smooth = smoothNoise (connected (noisy), noisy.positions, {}, 1);
+  smooth = smoothNoise (connected (noisy), noisy.positions, 1);
   for (const Triangle& t : noisy.triangles)
     EXPECT_GT (areaVector (smooth[t[0]], smooth[t[1]], smooth[t[2]]).norm (), 1e-4);
 }
@@ -237,7 +238,7 @@ TEST (Smoothing, LevelsSteps)
     return tilts[tilts.size () * 9 / 10];
   };
   EXPECT_GT (steepest (steps.positions), 0.9);
-  EXPECT_LT (steepest (smoothNoise (connected (steps), steps.positions, {}, 1)), 0.85);
+  EXPECT_LT (steepest (smoothNoise (connected (steps), steps.positions, 1)), 0.85);
 }
 
 TEST (Untangling, UndoesDetailsOnly)
