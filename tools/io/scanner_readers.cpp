@@ -146,13 +146,13 @@ struct PtxPixels
   std::vector<bool> lack_return;
 };
 
-template <std::size_t N>
-std::array<double, N>
+template <int N>
+Eigen::Matrix<double, 1, N>
 readLine (TextScanner& scanner)
 {
   if (!scanner.nextFilledLine ())
     throw ReadError ("it ends within a scan; it is truncated");
-  std::array<double, N> numbers{};
+  Eigen::Matrix<double, 1, N> numbers;
   for (double& number : numbers)
     number = scanner.number<double> ();
   return numbers;
@@ -165,21 +165,6 @@ readCount (TextScanner& scanner, std::size_t most)
   if (!(count >= 1.0 && count <= static_cast<double> (most)))
     scanner.fail ("this is no number of the rows or columns of a scan in this file");
   return static_cast<std::size_t> (count);
-}
-
-void
-readPixel (TextScanner& scanner, const Eigen::Matrix<double, 4, 3>& pose, std::size_t scan,
-           PtxPixels& pixels)
-{
-  const std::array<double, 3> at = readLine<3> (scanner);
-  const Eigen::RowVector3d local (at[0], at[1], at[2]);
-  const Eigen::RowVector3d place = local * pose.topRows<3> () + pose.row (3);
-  pixels.coordinates.insert (pixels.coordinates.end (), place.begin (), place.end ());
-  pixels.lack_return.push_back (local.isZero (0.0));
-  pixels.intensities.push_back (scanner.hasWord () ? scanner.number<float> () : 0.0F);
-  pixels.scans.push_back (static_cast<std::uint16_t> (scan));
-  while (scanner.hasWord ())
-    pixels.colors.push_back (scanner.number<std::uint8_t> ());
 }
 
 /// Normals of a scan, towards its sensor, from the pixels before and behind in either direction; zero
@@ -263,13 +248,19 @@ parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
     for (int line = 0; line < 4; ++line) // of the scanner, as the matrix has them
       readLine<3> (scanner);
     Eigen::Matrix<double, 4, 3> pose;
-    for (Eigen::Index row = 0; row < 4; ++row) {
-      const std::array<double, 4> numbers = readLine<4> (scanner);
-      pose.row (row) << numbers[0], numbers[1], numbers[2];
-    }
+    for (Eigen::Index row = 0; row < 4; ++row)
+      pose.row (row) = readLine<4> (scanner).head<3> ();
     const std::size_t first = pixels.lack_return.size ();
-    for (std::size_t pixel = 0; pixel < rows * columns; ++pixel)
-      readPixel (scanner, pose, scan, pixels);
+    for (std::size_t pixel = 0; pixel < rows * columns; ++pixel) {
+      const Eigen::RowVector3d local = readLine<3> (scanner);
+      const Eigen::RowVector3d place = local * pose.topRows<3> () + pose.row (3);
+      pixels.coordinates.insert (pixels.coordinates.end (), place.begin (), place.end ());
+      pixels.lack_return.push_back (local.isZero (0.0));
+      pixels.intensities.push_back (scanner.hasWord () ? scanner.number<float> () : 0.0F);
+      pixels.scans.push_back (static_cast<std::uint16_t> (scan));
+      while (scanner.hasWord ())
+        pixels.colors.push_back (scanner.number<std::uint8_t> ());
+    }
     addNormals (pixels, first, columns, rows, pose.row (3), normals);
     sensor = pose.row (3);
     if (++scan > std::size_t{1} << 16U)
