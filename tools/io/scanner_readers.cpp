@@ -158,15 +158,6 @@ readLine (TextScanner& scanner)
   return numbers;
 }
 
-std::size_t
-readCount (TextScanner& scanner, std::size_t most)
-{
-  const double count = readLine<1> (scanner)[0];
-  if (!(count >= 1.0 && count <= static_cast<double> (most)))
-    scanner.fail ("this is no number of the rows or columns of a scan in this file");
-  return static_cast<std::size_t> (count);
-}
-
 /// Normals of a scan, towards its sensor, from the pixels before and behind in either direction; zero
 /// where one is missing.
 void
@@ -242,9 +233,14 @@ parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
   std::size_t scan = 0;
   std::ostringstream scans;
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero ();
-  while (!scanner.restIsBlank ()) {
-    const std::size_t columns = readCount (scanner, file.view ().size ());
-    const std::size_t rows = readCount (scanner, file.view ().size () / columns);
+  const auto toCount = [&scanner] (double count, std::size_t most) {
+    if (!(count >= 1.0 && count <= static_cast<double> (most)))
+      scanner.fail ("this is no number of the rows or columns of a scan in this file");
+    return static_cast<std::size_t> (count);
+  };
+  while (scanner.nextFilledLine ()) {
+    const std::size_t columns = toCount (scanner.number<double> (), file.view ().size ());
+    const std::size_t rows = toCount (readLine<1> (scanner)[0], file.view ().size () / columns);
     for (int line = 0; line < 4; ++line) // of the scanner, as the matrix has them
       readLine<3> (scanner);
     Eigen::Matrix<double, 4, 3> pose;
