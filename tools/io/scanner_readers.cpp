@@ -97,19 +97,6 @@ readHeader (std::string_view bytes)
   return header;
 }
 
-bool
-hasColors (std::string_view bytes, const LasHeader& header)
-{
-  constexpr std::size_t CHANNELS = 3 * sizeof (std::uint16_t);
-  for (std::size_t p = 0; p < header.count; ++p) {
-    const std::string_view color = bytes.substr (
-        header.points_at + p * header.record_size + COLOR_AT[header.format], CHANNELS);
-    if (color.find_first_not_of ('\0') != std::string_view::npos)
-      return true;
-  }
-  return false;
-}
-
 /// Numbers that share bytes, unpacked: class, return, and what the scanner's software says of it.
 void
 addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fields)
@@ -209,7 +196,11 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   if (time_at > 0)
     add ("gps_time", ScalarType::FLOAT64, time_at);
   std::vector<std::string> warnings;
-  if (color_at > 0 && !hasColors (bytes, header))
+  bool are_black = color_at > 0;
+  for (std::size_t p = 0; p < header.count && are_black; ++p)
+    are_black = bytes.substr (header.points_at + p * header.record_size + color_at, 6)
+                    .find_first_not_of ('\0') == std::string_view::npos;
+  if (are_black)
     warnings.emplace_back ("all colours of the input file are black: they were left out");
   else if (color_at > 0) { // of 16 bits by the specification, often 8 in fact
     add ("r", ScalarType::UINT16, color_at);
