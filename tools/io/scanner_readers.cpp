@@ -113,10 +113,9 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
       {"return_number"}, {"number_of_returns"}, {"classification"}, {"synthetic"}, {"withheld"}};
   for (Field& field : unpacked)
     field.type = ScalarType::UINT8;
-  const auto count = static_cast<std::size_t> (header.count);
-  char* to = allocateRows (pointersTo (unpacked), count).get (); // which the fields keep
+  char* to = allocateRows (pointersTo (unpacked), header.count).get (); // which the fields keep
   const char* from = file.view ().data () + header.points_at + BITS_AT;
-  for (std::size_t p = 0; p < count; ++p, from += header.record_size)
+  for (std::size_t p = 0; p < header.count; ++p, from += header.record_size)
     for (const Bits& bits : all)
       *to++ = static_cast<char> (static_cast<unsigned char> (from[bits.byte]) >> bits.first &
                                  ((1U << bits.count) - 1U));
@@ -207,8 +206,7 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
     add ("g", ScalarType::UINT16, color_at + 2);
     add ("b", ScalarType::UINT16, color_at + 4);
   }
-  Cloud cloud =
-      makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
+  Cloud cloud = makeCloud (std::move (fields), header.count, std::move (warnings));
   // A centimetre of height is 1e-7 degrees.
   constexpr double FINER = 1e3;
   cloud.may_be_degrees = FINER * std::abs (header.scales[0]) <= std::abs (header.scales[2]);
