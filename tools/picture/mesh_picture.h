@@ -71,7 +71,7 @@ struct Camera
     const Eigen::Vector3d p = axes * (point - origin);
     const double weight = is_perspective ? -1.0 / p.z () : 1.0;
     const double pixels = 0.5 * side / half_side * weight;
-    return {0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y (),
+    return {Eigen::Vector2d (0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y ()),
             is_perspective ? weight : p.z (), weight};
   }
 };
@@ -211,28 +211,20 @@ inline void
 drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& triangles,
            double opacity)
 {
-  constexpr unsigned HALF = 32; // of the bits of an edge: the lower and the higher of its vertices
-  std::vector<std::uint64_t> edges;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges; // the lower and the higher vertex
   edges.reserve (3 * triangles.size ());
   for (const auto& triangle : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax (triangle[i], triangle[(i + 1) % 3]);
-      edges.push_back (std::uint64_t{low} << HALF | high);
-    }
-  const auto draw = [&] (std::uint64_t edge, int width, const Colour& colour, double its_opacity) {
-    canvas.drawLine (spots[edge >> HALF], spots[static_cast<std::uint32_t> (edge)], width, colour,
-                     its_opacity);
-  };
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.emplace_back (std::minmax (triangle[i], triangle[(i + 1) % 3]));
   if (opacity > 0.0)
-    for (const std::uint64_t edge : edges)
-      draw (edge, EDGE_WIDTH, EDGE, opacity);
+    for (const auto& [a, b] : edges)
+      canvas.drawLine (spots[a], spots[b], EDGE_WIDTH, EDGE, opacity);
   // Those that one triangle has.
   std::sort (edges.begin (), edges.end ());
   for (auto edge = edges.begin (), next = edge; edge != edges.end (); edge = next) {
-    next =
-        std::find_if (edge, edges.end (), [edge] (std::uint64_t other) { return other != *edge; });
+    next = std::find_if (edge, edges.end (), [edge] (const auto& other) { return other != *edge; });
     if (next - edge == 1)
-      draw (*edge, BOUNDARY_WIDTH, BOUNDARY, 1.0);
+      canvas.drawLine (spots[edge->first], spots[edge->second], BOUNDARY_WIDTH, BOUNDARY, 1.0);
   }
 }
 
