@@ -103,41 +103,24 @@ private:
   ColourImage image_;
 };
 
-/// An image on a mesh, in a size in which its pixels are about as large as those of the canvas, so that
-/// none is passed over.
-class Texture
+/// The colour of an image at a place from 0 to 1, y upwards, averaged linearly between pixels.
+inline Colour
+colourAt (const ColourImage& image, const Eigen::Vector2d& at)
 {
-public:
-  /// \param pixels of the image in one of the canvas, along a side
-  Texture (ColourImage image, double pixels) : image_ (std::move (image))
-  {
-    constexpr double MOST = 1.5;
-    for (; pixels > MOST && std::min (image_.width, image_.height) > 1; pixels /= 2.0)
-      image_ = halved (image_);
-  }
-
-  /// The colour at a place from 0 to 1, y upwards, averaged linearly between pixels.
-  Colour operator() (const Eigen::Vector2d& at) const
-  {
-    const auto columns = static_cast<double> (image_.width),
-               rows = static_cast<double> (image_.height);
-    const double x = std::clamp (at.x () * columns - 0.5, 0.0, columns - 1.0);
-    const double y = std::clamp ((1.0 - at.y ()) * rows - 0.5, 0.0, rows - 1.0);
-    const auto left = static_cast<std::size_t> (x), top = static_cast<std::size_t> (y);
-    Colour colour = Colour::Zero ();
-    for (const std::size_t down : {0, 1})
-      for (const std::size_t right : {0, 1}) {
-        const std::size_t pixel = std::min (top + down, image_.height - 1) * image_.width +
-                                  std::min (left + right, image_.width - 1);
-        const double share = (right == 1 ? x - std::floor (x) : 1.0 - x + std::floor (x)) *
-                             (down == 1 ? y - std::floor (y) : 1.0 - y + std::floor (y));
-        colour += share / 255.0 * image_.pixels[pixel].cast<double> ();
-      }
-    return colour;
-  }
-
-private:
-  ColourImage image_;
-};
+  const auto columns = static_cast<double> (image.width), rows = static_cast<double> (image.height);
+  const double x = std::clamp (at.x () * columns - 0.5, 0.0, columns - 1.0);
+  const double y = std::clamp ((1.0 - at.y ()) * rows - 0.5, 0.0, rows - 1.0);
+  const auto left = static_cast<std::size_t> (x), top = static_cast<std::size_t> (y);
+  Colour colour = Colour::Zero ();
+  for (const std::size_t down : {0, 1})
+    for (const std::size_t right : {0, 1}) {
+      const std::size_t pixel = std::min (top + down, image.height - 1) * image.width +
+                                std::min (left + right, image.width - 1);
+      const double share = (right == 1 ? x - std::floor (x) : 1.0 - x + std::floor (x)) *
+                           (down == 1 ? y - std::floor (y) : 1.0 - y + std::floor (y));
+      colour += share / 255.0 * image.pixels[pixel].cast<double> ();
+    }
+  return colour;
+}
 
 } // namespace pcl::floater

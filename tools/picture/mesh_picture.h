@@ -239,23 +239,26 @@ enum class Shading
   SMOOTH
 };
 
-// \param image by texture coordinates; without one, front and back sides have their colours
+// \param texture by texture coordinates; without one, front and back sides have their colours
 inline void
 drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
-               const std::optional<ColourImage>& image, Shading shading)
+               std::optional<ColourImage> texture, Shading shading)
 {
   const std::vector<Spot> spots = project (mesh.points, camera, canvas);
-  std::optional<Texture> texture;
-  if (image) {
+  if (texture) {
     double on_canvas = 0.0, in_image = 0.0; // areas, in pixels
     for (const auto& [a, b, c] : mesh.triangles) {
       const Eigen::Vector2d u = mesh.coordinates[b] - mesh.coordinates[a],
                             v = mesh.coordinates[c] - mesh.coordinates[a];
       on_canvas += std::abs (Canvas::signedArea ({spots[a], spots[b], spots[c]}));
       in_image += std::abs (u.x () * v.y () - u.y () * v.x ()) *
-                  static_cast<double> (image->pixels.size ());
+                  static_cast<double> (texture->pixels.size ());
     }
-    texture.emplace (*image, on_canvas > 0.0 ? std::sqrt (in_image / on_canvas) : 1.0);
+    // Its pixels become about as large as those of the canvas, so that none is passed over.
+    constexpr double MOST = 1.5; // in one of the canvas, along a side
+    double pixels = on_canvas > 0.0 ? std::sqrt (in_image / on_canvas) : 1.0;
+    for (; pixels > MOST && std::min (texture->width, texture->height) > 1; pixels /= 2.0)
+      texture = halved (*texture);
   }
   // As the camera sees them: unit normals of triangles, and their sums around the vertices.
   std::vector<Eigen::Vector3d> normals, sums (mesh.points.size (), Eigen::Vector3d::Zero ());
@@ -282,7 +285,7 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
     canvas.fill (corners, [&] (const Eigen::Vector3d& shares) -> Colour {
       Colour colour = side > 0.0 ? FRONT : BACK;
       if (texture)
-        colour = (*texture) (mean (mesh.coordinates, shares));
+        colour = colourAt (*texture, mean (mesh.coordinates, shares));
       if (shading == Shading::NONE)
         return colour;
       const Eigen::Vector3d normal =
