@@ -40,9 +40,21 @@ public:
     if (!find ("POINTS"))
       throw ReadError ("it has no POINTS");
     const std::size_t points = count ();
-    const ScalarType type = vtkType (word ());
-    std::vector<Field> fields{{"x", type}, {"y", type}, {"z", type}};
-    readArray ({&fields[0], &fields[1], &fields[2]}, points);
+    std::vector<Field> fields;
+    const auto addColumns = [&] (const std::vector<std::string>& names, std::size_t each,
+                                 ScalarType type) {
+      if (each < names.size ())
+        throw ReadError ("its " + section_ + " have fewer than " + std::to_string (names.size ()) +
+                         " values for each point");
+      Field all{"", type, each};
+      readArray (all, points);
+      const char* at = all.first.get ();
+      for (const std::string& name : names) {
+        fields.push_back ({name, type, 1, {all.first, at}, all.stride, all.order});
+        at += sizeOf (type);
+      }
+    };
+    addColumns ({"x", "y", "z"}, 3, vtkType (word ()));
     if (has_polygons && find ("POLYGONS"))
       readPolygons (points, triangles);
     const bool has_data = find ("POINT_DATA") && count () == points;
@@ -54,19 +66,6 @@ public:
       if (is_found)
         word (); // its name
       return is_found;
-    };
-    const auto addColumns = [&] (const std::vector<std::string>& names, std::size_t each,
-                                 ScalarType column_type) {
-      if (each < names.size ())
-        throw ReadError ("its " + section_ + " have fewer than " + std::to_string (names.size ()) +
-                         " values for each point");
-      std::vector<Field> columns;
-      columns.reserve (names.size () + 1);
-      for (const std::string& name : names)
-        columns.push_back ({name, column_type});
-      columns.push_back ({"", column_type, each - names.size ()});
-      readArray (pointersTo (columns), points);
-      fields.insert (fields.end (), columns.begin (), columns.end () - 1);
     };
     if (findData ("COLOR_SCALARS"))
       addColumns ({"red", "green", "blue"}, count (),
@@ -89,13 +88,13 @@ private:
     Field offsets{"", ScalarType::INT32}, corners = offsets;
     if (has_offsets) {
       offsets.type = vtkType (word ());
-      readArray ({&offsets}, rows);
+      readArray (offsets, rows);
       word (); // CONNECTIVITY
       corners.type = vtkType (word ());
     }
     else
       at_ = before;
-    readArray ({&corners}, size);
+    readArray (corners, size);
     const auto whole = static_cast<double> (size);
     double end = 0.0;
     std::vector<double> polygon;
@@ -117,26 +116,23 @@ private:
   }
 
   // Binary values stay in the file.
-  void readArray (const std::vector<Field*>& fields, std::size_t rows)
+  void readArray (Field& field, std::size_t rows)
   {
     if (is_binary_)
       skipLine ();
-    const std::size_t row_bytes = rowBytes (fields);
-    std::size_t text_bytes = 0; // a value of a text is a digit and a blank, but for the last one
-    for (const Field* field : fields)
-      text_bytes += 2 * field->count;
-    requireRoom ("rows of its " + section_, rows, is_binary_ ? row_bytes : text_bytes,
+    // A value of a text is a digit and a blank, but for the last one.
+    requireRoom ("rows of its " + section_, rows,
+                 is_binary_ ? field.pointBytes () : 2 * field.count,
                  bytes_.size () - at_ + (is_binary_ ? 0 : 1));
     if (is_binary_) {
-      viewRows (fields, file_.at (at_), ByteOrder::big);
-      at_ += rows * row_bytes;
+      viewRows ({&field}, file_.at (at_), ByteOrder::big);
+      at_ += rows * field.stride;
       return;
     }
-    char* to = allocateRows (fields, rows).get (); // which the fields keep
+    char* to = allocateRows ({&field}, rows).get (); // which the field keeps
     for (std::size_t row = 0; row < rows; ++row)
-      for (const Field* field : fields)
-        to = putValues (*field, to,
-                        [this] (auto tag, std::size_t) { return number<decltype (tag)> (); });
+      to = putValues (field, to,
+                      [this] (auto tag, std::size_t) { return number<decltype (tag)> (); });
   }
 
   // Goes on after the name of a section, if there is one after this place.
