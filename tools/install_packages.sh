@@ -48,9 +48,7 @@ for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
   [[ $status == installed ]] || missing+=("$package")
 done
-if ((${#missing[@]} == 0)); then
-  exit 0
-fi
+((${#missing[@]} > 0)) || exit 0
 
 as_root=()
 if ((EUID != 0)); then
