@@ -156,11 +156,9 @@ addNormals (const PtxPixels& pixels, std::size_t first, std::size_t columns, std
   for (std::size_t i = 0; i < columns * rows; ++i) {
     Eigen::Vector3f& normal = normals.emplace_back (0.0F, 0.0F, 0.0F);
     const std::size_t column = i / rows, row = i % rows, pixel = first + i;
-    if (column == 0 || column + 1 == columns || row == 0 || row + 1 == rows)
-      continue;
     const auto& lack = pixels.lack_return;
-    if (lack[pixel] || lack[pixel - 1] || lack[pixel + 1] || lack[pixel - rows] ||
-        lack[pixel + rows])
+    if (column == 0 || column + 1 == columns || row == 0 || row + 1 == rows || lack[pixel] ||
+        lack[pixel - 1] || lack[pixel + 1] || lack[pixel - rows] || lack[pixel + rows])
       continue;
     const Eigen::Vector3d across =
         (at (pixel + 1) - at (pixel - 1)).cross (at (pixel + rows) - at (pixel - rows));
