@@ -65,15 +65,6 @@ struct Camera
   Eigen::Vector3d origin; ///< the middle of the picture; in perspective, the viewer
   double half_side;       ///< of the picture; in perspective, at the distance 1
   bool is_perspective;
-
-  Spot project (const Eigen::Vector3d& point, double side) const
-  {
-    const Eigen::Vector3d p = axes * (point - origin);
-    const double weight = is_perspective ? -1.0 / p.z () : 1.0;
-    const double pixels = 0.5 * side / half_side * weight;
-    return {Eigen::Vector2d (0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y ()),
-            is_perspective ? weight : p.z (), weight};
-  }
 };
 
 constexpr double MARGIN = 1.06; // side of the picture over that of the mesh in it
@@ -197,11 +188,17 @@ inline std::vector<Spot>
 project (const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Canvas& canvas,
          double lift = 0.0)
 {
+  const double side = canvas.side ();
   std::vector<Spot> spots;
   spots.reserve (points.size ());
   for (const Eigen::Vector3d& point : points) {
-    spots.push_back (camera.project (point, canvas.side ()));
-    spots.back ().nearness += lift * 2.0 * camera.half_side / canvas.side () * spots.back ().weight;
+    const Eigen::Vector3d p = camera.axes * (point - camera.origin);
+    const double weight = camera.is_perspective ? -1.0 / p.z () : 1.0;
+    const double pixels = 0.5 * side / camera.half_side * weight;
+    const double nearness = camera.is_perspective ? weight : p.z ();
+    spots.push_back ({{0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y ()},
+                      nearness + lift * 2.0 * camera.half_side / side * weight,
+                      weight});
   }
   return spots;
 }
