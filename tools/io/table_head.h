@@ -288,7 +288,7 @@ isFirstPoint (std::string_view line, const std::array<std::size_t, 3>& chosen, T
     const bool is_header = header.size () == words.size ();
     if (is_chosen && !head.has_names)
       head.columns = is_header ? header : std::vector<Column> (words.size ());
-    if (is_chosen)
+    if (is_chosen && words.size () <= head.columns.size ()) // else it is no point
       chooseColumns (chosen, head.columns);
     std::vector<Column> plain (words.size ());
     chooseColumns ({1, 2, 3}, plain);
