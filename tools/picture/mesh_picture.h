@@ -302,7 +302,7 @@ struct PictureOptions
   std::optional<PictureMesh> parameterization; ///< in the plane; its edges are drawn beside
   /// Image on the mesh, by its texture coordinates; beside it, the same in the square of the texture.
   std::optional<ColourImage> texture;
-  bool flat_shading = false; ///< one shade for each triangle, which shows bumps
+  Shading shading = Shading::SMOOTH; ///< FLAT is one for each triangle, which shows bumps
   /// From where the mesh is seen, if it lies within 60 degrees of one direction from there.
   std::optional<Eigen::Vector3d> viewpoint;
 };
@@ -324,8 +324,7 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
     camera = aimFromViewpoint (mesh.scale * (*options.viewpoint - mesh.centre), mesh.points);
   if (!camera)
     camera = aimCamera (chooseView (mesh), mesh.points);
-  drawTriangles (canvas, mesh, *camera, options.texture,
-                 options.flat_shading ? Shading::FLAT : Shading::SMOOTH);
+  drawTriangles (canvas, mesh, *camera, options.texture, options.shading);
   const auto copyTo = [&] (std::size_t left) {
     const ColourImage panel = halved (canvas.image ());
     for (std::size_t row = 0; row < height; ++row)
