@@ -38,11 +38,8 @@ _pcl_floater () {
   fi
   help=$("$1" --help 2>/dev/null) || return 0
 
-  takes=none
-  if [[ $previous == -* ]]; then
-    takes=$(_pcl_floater_takes "$help" "$previous")
-  fi
-  case "${takes:-none}" in
+  [[ $previous != -* ]] || takes=$(_pcl_floater_takes "$help" "$previous")
+  case "${takes-}" in
     choice\ *) mapfile -t COMPREPLY < <(compgen -W "${takes#choice }" -- "$word"); return 0 ;;
     file) compopt -o default 2>/dev/null || true; return 0 ;;
     folder) compopt -o dirnames 2>/dev/null || true; return 0 ;;
@@ -63,7 +60,6 @@ _pcl_floater () {
     fi
   fi
   compopt -o default 2>/dev/null || true
-  return 0
 }
 
 complete -F _pcl_floater pcl_floater_reconstruct pcl_floater_distributed pcl_floater_generate \

@@ -48,17 +48,13 @@ for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
   [[ $status == installed ]] || missing+=("$package")
 done
-if ((${#missing[@]} == 0)); then
-  exit 0
-fi
+((${#missing[@]} > 0)) || exit 0
 
 as_root=()
-if ((EUID != 0)); then
-  if ! command -v sudo >/dev/null; then
-    echo "install_packages.sh: root or sudo is needed for: apt-get install ${missing[*]}" >&2
-    exit 1
-  fi
-  as_root=(sudo)
+((EUID == 0)) || as_root=(sudo)
+if ((EUID != 0)) && ! command -v sudo >/dev/null; then
+  echo "install_packages.sh: root or sudo is needed for: apt-get install ${missing[*]}" >&2
+  exit 1
 fi
 
 log=$(mktemp)

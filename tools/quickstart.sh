@@ -77,9 +77,7 @@ Done. In $result:
 To view the mesh (key r: reset the view, w: edges, q: quit):
   pcl_viewer '$result/mesh.vtk'
 END
-if ! command -v pcl_viewer >/dev/null; then
-  echo "(pcl_viewer is in the Debian package pcl-tools.)"
-fi
+command -v pcl_viewer >/dev/null || echo "(pcl_viewer is in the Debian package pcl-tools.)"
 if [[ ! -e $build/src/libpcl_floater.so && ! -e $build/src/libpcl_floater.a ]]; then
   echo "For the library for PCL, all tools and the Python module: tools/install_packages.sh, then" \
        "'cmake --preset release && cmake --build --preset release'."

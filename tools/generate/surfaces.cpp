@@ -157,19 +157,6 @@ torus (double n)
   return {n, lift, stretch, nullptr, true};
 }
 
-Chart
-chartOf (const SurfaceSpec& spec)
-{
-  const double n = static_cast<double> (spec.points);
-  return spec.kind == SurfaceKind::HEIGHT_FIELD   ? heightField (n)
-         : spec.kind == SurfaceKind::HEMISPHERE   ? sphere (n, true)
-         : spec.kind == SurfaceKind::FINGER       ? finger (n, spec.length)
-         : spec.kind == SurfaceKind::FOLDED_SHEET ? foldedSheet (n, spec.gap)
-         : spec.kind == SurfaceKind::CUT_OUT      ? cutOut (n, spec.holes)
-         : spec.kind == SurfaceKind::SPHERE       ? sphere (n, false)
-                                                  : torus (n);
-}
-
 // Density that falls exponentially along s, or there and back: s as a function of the fraction f of
 // the points before it, with its derivative.
 std::pair<double, double>
@@ -187,18 +174,16 @@ graded (double f, double log_ratio, bool there_and_back)
   return {-std::log (left) / log_ratio, share / (left * log_ratio)};
 }
 
-using Grading = std::function<std::pair<double, double> (double f)>;
-
 // Fraction of the sampled points that are not in holes, from the midpoints of a fine grid.
 double
-shareInside (const Chart& chart, const Grading& grading)
+shareInside (const Chart& chart, double log_ratio)
 {
   if (!chart.inside)
     return 1.0;
   constexpr int cells = 1000;
   int inside = 0;
   for (int i = 0; i < cells; ++i) {
-    const double s = grading ((i + 0.5) / cells).first;
+    const double s = graded ((i + 0.5) / cells, log_ratio, chart.ring).first;
     for (int j = 0; j < cells; ++j)
       inside += chart.inside (s, (j + 0.5) / cells) ? 1 : 0;
   }
@@ -228,8 +213,7 @@ double
 ringRotation (std::size_t n)
 {
   constexpr std::size_t candidates = 1000;
-  const std::size_t middle =
-      static_cast<std::size_t> (std::round (GOLDEN * static_cast<double> (n)));
+  const auto middle = static_cast<std::size_t> (std::round (GOLDEN * static_cast<double> (n)));
   std::size_t best = middle;
   for (std::size_t p = middle - std::min (middle - 1, candidates / 2);
        p < std::min (n, middle + candidates / 2); ++p)
@@ -251,10 +235,16 @@ generateSurface (const SurfaceSpec& spec)
   require (spec.density_ratio >= 1.0 && spec.density_ratio <= MAX_DENSITY,
            "the density ratio must be from 1 to 100");
   require (spec.noise >= 0.0 && std::isfinite (spec.noise), "the noise must be 0 or more");
-  const Chart chart = chartOf (spec);
-  const Grading grading = [log_ratio = std::log (spec.density_ratio),
-                           ring = chart.ring] (double f) { return graded (f, log_ratio, ring); };
-  const double lattice = static_cast<double> (spec.points) / shareInside (chart, grading);
+  const auto n = static_cast<double> (spec.points);
+  const Chart chart = spec.kind == SurfaceKind::HEIGHT_FIELD   ? heightField (n)
+                      : spec.kind == SurfaceKind::HEMISPHERE   ? sphere (n, true)
+                      : spec.kind == SurfaceKind::FINGER       ? finger (n, spec.length)
+                      : spec.kind == SurfaceKind::FOLDED_SHEET ? foldedSheet (n, spec.gap)
+                      : spec.kind == SurfaceKind::CUT_OUT      ? cutOut (n, spec.holes)
+                      : spec.kind == SurfaceKind::SPHERE       ? sphere (n, false)
+                                                               : torus (n);
+  const double log_ratio = std::log (spec.density_ratio);
+  const double lattice = n / shareInside (chart, log_ratio);
   const double rotation = chart.ring ? ringRotation (spec.points) : GOLDEN;
   const double jitter = chart.ring ? RING_JITTER : JITTER;
 
@@ -263,14 +253,14 @@ generateSurface (const SurfaceSpec& spec)
   points.reserve (spec.points);
   for (double k = 0.5; points.size () < spec.points; k += 1.0) { // beyond n if there are holes
     double f = k / lattice, t = std::fmod (k * rotation, 1.0);
-    const auto [s, slope] = grading (f);
+    const auto [s, slope] = graded (f, log_ratio, chart.ring);
     const double along_t = chart.stretch (s, t), along_f = chart.area * slope / along_t;
     const double spacing = std::sqrt (slope * chart.area / lattice);
     const double reach = jitter * spacing * std::sqrt (random.uniform ());
     const double direction = 2.0 * PI * random.uniform ();
     f += reach * std::cos (direction) / along_f;
     t += reach * std::sin (direction) / along_t;
-    const double moved_s = grading (f).first;
+    const double moved_s = graded (f, log_ratio, chart.ring).first;
     if (!chart.inside || chart.inside (moved_s, t))
       points.push_back (chart.lift (moved_s, t));
   }

@@ -139,10 +139,9 @@ addColumns (const std::vector<std::string>& names, ScalarType type, Values value
 {
   const auto kept = std::make_shared<const Values> (std::move (values));
   const auto* first = reinterpret_cast<const char*> (kept->data ());
+  const std::size_t stride = (width > 0 ? width : names.size ()) * sizeOf (type);
   for (const std::string& name : names) {
-    Field& field = fields.emplace_back (Field{name, type});
-    field.first = {kept, first};
-    field.stride = (width > 0 ? width : names.size ()) * sizeOf (type);
+    fields.push_back ({name, type, 1, {kept, first}, stride});
     if (first != nullptr) // there are values
       first += sizeOf (type);
   }

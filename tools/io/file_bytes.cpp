@@ -32,14 +32,21 @@ struct FileBytes::Holder : private boost::noncopyable
     if (S_ISREG (status.st_mode) && size > 0)
       at = ::mmap (nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
     is_mapped = at != MAP_FAILED;
-    if (!is_mapped) {
-      readAll ();
+    if (is_mapped) {
+      bytes = {static_cast<const char*> (at), size};
+      ::madvise (at, size, MADV_SEQUENTIAL);
+      const std::lock_guard<std::mutex> lock (mapped_files_mutex);
+      mapped_files.emplace (static_cast<char*> (at), size);
       return;
     }
-    bytes = {static_cast<const char*> (at), size};
-    ::madvise (at, size, MADV_SEQUENTIAL);
-    const std::lock_guard<std::mutex> lock (mapped_files_mutex);
-    mapped_files.emplace (static_cast<char*> (at), size);
+    std::array<char, 1U << 16U> step{};
+    for (ssize_t got = -1; got != 0;) {
+      got = ::read (descriptor, step.data (), step.size ());
+      if (got < 0 && errno != EINTR)
+        throw ReadError (std::strerror (errno));
+      own.append (step.data (), static_cast<std::size_t> (std::max<ssize_t> (got, 0)));
+    }
+    bytes = own;
   }
 
   ~Holder ()
@@ -51,18 +58,6 @@ struct FileBytes::Holder : private boost::noncopyable
       ::munmap (at, bytes.size ());
     }
     ::close (descriptor);
-  }
-
-  void readAll ()
-  {
-    std::array<char, 1U << 16U> step{};
-    for (ssize_t got = -1; got != 0;) {
-      got = ::read (descriptor, step.data (), step.size ());
-      if (got < 0 && errno != EINTR)
-        throw ReadError (std::strerror (errno));
-      own.append (step.data (), static_cast<std::size_t> (std::max<ssize_t> (got, 0)));
-    }
-    bytes = own;
   }
 
   int descriptor = -1;

@@ -43,7 +43,7 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   const FieldTriple normals = cloud.normals ();
   const Field* const alpha = cloud.find ("alpha");
   const bool has_alpha = alpha != nullptr && alpha->type == ScalarType::UINT8 && alpha->count == 1;
-  constexpr std::size_t VECTOR = 3 * sizeof (float), TRIANGLE = 3 * sizeof (std::uint32_t);
+  constexpr std::size_t VECTOR = 3 * sizeof (float);
   Json attributes, views = Json::array (), accessors = Json::array ();
   std::size_t bytes = 0; // of the arrays, which are one after the other
   const auto add = [&] (const char* type, int component, std::size_t count, std::size_t bytes_each,
@@ -58,13 +58,12 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
     bytes += count * bytes_each;
     return number;
   };
-  const std::size_t positions = add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
-  attributes["POSITION"] = positions;
+  attributes["POSITION"] = add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
   Eigen::AlignedBox3f box;
   for (std::size_t i = 0; i < cloud.size (); ++i)
     box.extend (cloud.position (i).cast<float> ());
-  accessors[positions]["min"] = box.min ();
-  accessors[positions]["max"] = box.max ();
+  accessors.back ()["min"] = box.min ();
+  accessors.back ()["max"] = box.max ();
   if (normals[0])
     attributes["NORMAL"] = add ("VEC3", FLOAT, cloud.size (), VECTOR, VERTICES);
   if (colors[0]) {
@@ -72,7 +71,7 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
     accessors.back ()["normalized"] = true;
   }
   const std::size_t indices =
-      add ("SCALAR", UNSIGNED_INT, 3 * triangles.size (), TRIANGLE / 3, INDICES);
+      add ("SCALAR", UNSIGNED_INT, 3 * triangles.size (), sizeof (std::uint32_t), INDICES);
 
   // Up is +y for viewers, and +z in most clouds. The arrays have the coordinates of the cloud.
   Json all = Json::parse (R"({
@@ -97,17 +96,13 @@ writeGlb (AtomicFile& file, const Cloud& cloud, const Triangles& triangles, Mesh
   if (size > std::numeric_limits<std::uint32_t>::max ())
     throw WriteError (
         "cannot write the mesh as .glb, which holds 4 GB at most; write .ply or .vtk");
-  const auto write = [&file] (std::size_t number) {
-    file.writeNumber (static_cast<std::uint32_t> (number));
+  const auto write = [&file] (std::initializer_list<std::size_t> numbers) {
+    for (const std::size_t number : numbers)
+      file.writeNumber (static_cast<std::uint32_t> (number));
   };
-  write (MAGIC);
-  write (2); // version
-  write (size);
-  write (text.size ());
-  write (JSON_CHUNK);
+  write ({MAGIC, 2, size, text.size (), JSON_CHUNK}); // 2 is the version
   file.write (text);
-  write (bytes);
-  write (BINARY_CHUNK);
+  write ({bytes, BINARY_CHUNK});
   for (std::size_t i = 0; i < cloud.size (); ++i)
     writeNumbers (file, cloud.position (i).cast<float> ().eval ());
   if (normals[0])

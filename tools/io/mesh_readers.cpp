@@ -38,13 +38,6 @@ readNumbers (TextScanner& scanner, std::array<double, 6>& numbers)
   return count;
 }
 
-/// Faces, of which only the normals of their corners are used.
-struct ObjFaces
-{
-  std::size_t count = 0;
-  std::vector<std::array<std::size_t, 2>> normals; ///< (point, its normal) of corners, from 0
-};
-
 /// The part of a corner "7/8/9" up to the next slash, as an index from 0; the rest stays in `text`.
 /// Negative numbers count back from the last of `size`.
 /// \return nothing if that part is empty
@@ -62,48 +55,36 @@ takeIndex (const TextScanner& scanner, std::string_view& text, std::size_t size)
                     : size - static_cast<std::size_t> (-number);
 }
 
-void
-readFace (TextScanner& scanner, std::size_t points, std::size_t normals, ObjFaces& faces)
-{
-  ++faces.count;
-  for (auto corner = nextWord (scanner); !corner.empty (); corner = nextWord (scanner)) {
-    const std::optional<std::size_t> point = takeIndex (scanner, corner, points);
-    takeIndex (scanner, corner, 0); // of a texture
-    const std::optional<std::size_t> normal = takeIndex (scanner, corner, normals);
-    if (point && normal)
-      faces.normals.push_back ({*point, *normal});
-  }
-}
-
 /// The normal of each point: the first that a face gives it, NaN if there is none. With as many
 /// normals as points, and no face that tells otherwise, they come in the same order.
+/// \param corners (point, its normal), from 0, of faces
 /// \return empty if normals and points do not fit together; then there is a warning
-std::vector<double>
-matchNormals (const std::vector<double>& normals, const ObjFaces& faces, std::size_t points,
+std::vector<std::array<double, 3>>
+matchNormals (const std::vector<std::array<double, 3>>& normals,
+              const std::vector<std::array<std::size_t, 2>>& corners, std::size_t points,
               std::vector<std::string>& warnings)
 {
-  const bool is_one_each = normals.size () == 3 * points;
-  if (is_one_each && std::all_of (faces.normals.begin (), faces.normals.end (),
-                                  [] (const auto& corner) { return corner[0] == corner[1]; }))
+  if (normals.size () == points &&
+      std::all_of (corners.begin (), corners.end (),
+                   [] (const auto& corner) { return corner[0] == corner[1]; }))
     return normals;
-  if (faces.normals.empty ()) {
+  if (corners.empty ()) {
     if (!normals.empty ())
       warnings.push_back ("normals were left out: there are " +
-                          counted (normals.size () / 3, "normal") + " for " +
+                          counted (normals.size (), "normal") + " for " +
                           counted (points, "point") + ", and no faces that tell which is whose");
     return {};
   }
-  std::vector<double> matched (3 * points, std::numeric_limits<double>::quiet_NaN ());
+  constexpr double NONE = std::numeric_limits<double>::quiet_NaN ();
+  std::vector<std::array<double, 3>> matched (points, {NONE, NONE, NONE});
   std::vector<std::uint8_t> has_several (points, 0);
-  for (const auto& [point, normal] : faces.normals) {
-    if (point >= points || normal >= normals.size () / 3)
+  for (const auto& [point, normal] : corners) {
+    if (point >= points || normal >= normals.size ())
       throw ReadError ("a face names point " + std::to_string (point + 1) + " and normal " +
                        std::to_string (normal + 1) + ", one of which the file does not have");
-    const auto from = normals.begin () + static_cast<std::ptrdiff_t> (3 * normal);
-    const auto to = matched.begin () + static_cast<std::ptrdiff_t> (3 * point);
-    if (std::isnan (*to))
-      std::copy_n (from, 3, to);
-    else if (!std::equal (from, from + 3, to))
+    if (std::isnan (matched[point][0]))
+      matched[point] = normals[normal];
+    else if (matched[point] != normals[normal])
       has_several[point] = 1;
   }
   if (const auto several = std::count (has_several.begin (), has_several.end (), 1); several > 0)
@@ -183,8 +164,9 @@ Cloud
 parseObj (const FileBytes& file, const ReadOptions& /*options*/)
 {
   constexpr std::size_t WITH_COLOR = 6;
-  std::vector<double> coordinates, normals;
-  ObjFaces faces;
+  std::vector<std::array<double, 3>> coordinates, normals;
+  std::vector<std::array<std::size_t, 2>> corners; // with normals: (point, normal)
+  std::size_t faces = 0;
   std::vector<float> colors;
   std::array<double, WITH_COLOR> numbers{};
   TextScanner scanner (file.view ());
@@ -194,7 +176,7 @@ parseObj (const FileBytes& file, const ReadOptions& /*options*/)
       const std::size_t count = readNumbers (scanner, numbers);
       if (count != 3 && count != 4 && count != WITH_COLOR)
         scanner.fail ("a point has 3, 4 or 6 numbers, not " + std::to_string (count));
-      coordinates.insert (coordinates.end (), numbers.begin (), numbers.begin () + 3);
+      coordinates.push_back ({numbers[0], numbers[1], numbers[2]});
       if (count == WITH_COLOR)
         for (std::size_t i = 3; i < WITH_COLOR; ++i) {
           if (!(numbers[i] >= 0.0 && numbers[i] <= 255.0))
@@ -205,16 +187,24 @@ parseObj (const FileBytes& file, const ReadOptions& /*options*/)
     else if (key == "vn") {
       if (readNumbers (scanner, numbers) != 3)
         scanner.fail ("a normal has 3 numbers");
-      normals.insert (normals.end (), numbers.begin (), numbers.begin () + 3);
+      normals.push_back ({numbers[0], numbers[1], numbers[2]});
     }
-    else if (key == "f")
-      readFace (scanner, coordinates.size () / 3, normals.size () / 3, faces);
+    else if (key == "f") {
+      ++faces;
+      for (auto corner = nextWord (scanner); !corner.empty (); corner = nextWord (scanner)) {
+        const auto point = takeIndex (scanner, corner, coordinates.size ());
+        takeIndex (scanner, corner, 0); // of a texture
+        const auto normal = takeIndex (scanner, corner, normals.size ());
+        if (point && normal)
+          corners.push_back ({*point, *normal});
+      }
+    }
     else if (!key.empty ()) // a line that is passed over may go on, too
       while (!nextWord (scanner).empty ()) {}
   }
   if (coordinates.empty ())
     throw ReadError ("it has no points");
-  const std::size_t size = coordinates.size () / 3;
+  const std::size_t size = coordinates.size ();
   std::vector<Field> fields;
   std::vector<std::string> warnings;
   addColumns ({"x", "y", "z"}, ScalarType::FLOAT64, std::move (coordinates), fields);
@@ -222,11 +212,10 @@ parseObj (const FileBytes& file, const ReadOptions& /*options*/)
     addColumns ({"red", "green", "blue"}, ScalarType::FLOAT32, std::move (colors), fields);
   else if (!colors.empty ())
     warnings.emplace_back ("not all points have a colour; colours were left out");
-  if (std::vector<double> matched = matchNormals (normals, faces, size, warnings);
-      !matched.empty ())
+  if (auto matched = matchNormals (normals, corners, size, warnings); !matched.empty ())
     addColumns ({"nx", "ny", "nz"}, ScalarType::FLOAT64, std::move (matched), fields);
-  if (faces.count > 0)
-    warnings.push_back (facesLeftOut (faces.count));
+  if (faces > 0)
+    warnings.push_back (facesLeftOut (faces));
   return makeCloud (std::move (fields), size, std::move (warnings));
 }
 

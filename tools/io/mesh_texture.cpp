@@ -32,7 +32,7 @@ parsePng (const FileBytes& file)
     throw ReadError (std::string ("it is no PNG file that can be read: ") +
                      lodepng_error_text (error));
   ColourImage image{width, height, std::vector<ColourImage::Pixel> (bytes.size () / 3)};
-  std::memcpy (image.pixels.data (), bytes.data (), bytes.size ());
+  std::memcpy (image.pixels.data ()->data (), bytes.data (), bytes.size ());
   return image;
 }
 
@@ -76,13 +76,12 @@ bakeColours (const Cloud& cloud, const Triangles& triangles, const TextureCoordi
     for (side = SMALLEST; side < LARGEST && static_cast<double> (side) < wanted;)
       side *= 2;
   constexpr std::uint8_t GREY = 128;
-  ColourImage image{side, side, {side * side, ColourImage::Pixel{GREY, GREY, GREY}}};
+  ColourImage image{side, side, {side * side, ColourImage::Pixel::Constant (GREY)}};
   std::vector<std::uint8_t> is_painted (side * side, 0);
   const FieldTriple fields = cloud.colors ();
   const auto length = static_cast<double> (side);
   const auto put = [&] (std::size_t x, std::size_t y, const Colour& colour) {
-    Eigen::Map<Eigen::Matrix<std::uint8_t, 3, 1>> (image.pixels[y * side + x].data ()) =
-        colour.array ().round ().matrix ().cast<std::uint8_t> ();
+    image.pixels[y * side + x] = colour.array ().round ().cast<std::uint8_t> ();
     is_painted[y * side + x] = 1;
   };
   for (std::size_t t = 0; t < triangles.size (); ++t) {

@@ -11,7 +11,7 @@ namespace pcl::floater {
 /// An image of 8-bit colours, row by row from the top.
 struct ColourImage
 {
-  using Pixel = std::array<std::uint8_t, 3>;
+  using Pixel = Eigen::Matrix<std::uint8_t, 3, 1>;
 
   std::size_t width = 0, height = 0;
   std::vector<Pixel> pixels;

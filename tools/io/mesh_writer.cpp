@@ -82,13 +82,12 @@ isLong (ScalarType type)
 Cloud
 doubleSeamPoints (const Cloud& cloud, const TextureCoordinates& texture, Triangles& triangles)
 {
-  constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max ();
   const std::size_t points = cloud.size ();
   std::vector<std::size_t> rows (points);
   for (std::size_t p = 0; p < points; ++p)
     rows[p] = cloud.row (p);
   std::vector<Eigen::Vector2f> places (points, Eigen::Vector2f (-1.0F, -1.0F));
-  std::vector<std::uint32_t> number (texture.coordinates.size (), NONE); // of each coordinate
+  std::vector<std::uint32_t> number (texture.coordinates.size ()); // of each coordinate
   for (std::size_t c = 0; c < number.size (); ++c) {
     const std::uint32_t point = texture.points[c];
     if (c == 0 || texture.points[c - 1] != point)

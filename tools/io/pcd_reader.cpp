@@ -227,10 +227,8 @@ parsePcd (const FileBytes& file, const ReadOptions& options)
   else
     scanner.fail ("DATA is '" + std::string (header.data) +
                   "'; it must be ascii, binary or binary_compressed");
-  std::vector<Field> kept;
-  for (Field* field : fieldsToKeep (header))
-    kept.push_back (std::move (*field));
-  Cloud cloud = makeCloud (std::move (kept), header.points, std::move (header.warnings));
+  boost::remove_erase_if (header.fields, [] (const Field& field) { return field.name == PADDING; });
+  Cloud cloud = makeCloud (std::move (header.fields), header.points, std::move (header.warnings));
   cloud.sensor_origin = header.viewpoint;
   cloud.single_precision |= is_widened;
   const std::size_t height = header.height.value_or (1);

@@ -17,14 +17,13 @@ struct Element
   std::string name;
   std::size_t count = 0;
   std::vector<Property> properties;
-
-  std::string what () const { return "rows of the element '" + name + "'"; }
 };
 
 struct PlyHeader
 {
   std::optional<ByteOrder> byte_order; ///< none if ascii
   std::vector<Element> elements;
+  std::string_view rest; ///< of a binary file: what has not been read
 
   Element* find (std::string_view name)
   {
@@ -98,6 +97,7 @@ readPlyHeader (TextScanner& scanner)
         scanner.fail ("the header has no format line");
       if (header.find ("vertex") == nullptr)
         scanner.fail ("the header has no element 'vertex'");
+      header.rest = scanner.rest ();
       return header;
     }
     else
@@ -116,91 +116,70 @@ fieldsOf (Element& element)
   return fields;
 }
 
-/// Reads the elements of a file, one after the other.
-class PlyElements
+/// Reads an element, behind those before it. Without lists, binary ones become views of the file.
+/// \param scanner of a text: where the element begins
+/// \param triangles get the faces; nullptr: only the values of "vertex" are kept, without lists
+void
+readElement (const FileBytes& file, TextScanner& scanner, PlyHeader& header, Element& element,
+             Triangles* triangles)
 {
-public:
-  /// \param scanner behind the header
-  /// \param order none: it is a text
-  PlyElements (const FileBytes& file, TextScanner& scanner, std::optional<ByteOrder> order)
-      : file_ (file), scanner_ (scanner), order_ (order), rest_ (scanner.rest ())
-  {
+  const std::optional<ByteOrder> order = header.byte_order;
+  std::string_view& rest = header.rest;
+  const Element* const vertices = header.find ("vertex");
+  const std::string what = "rows of the element '" + element.name + "'";
+  std::size_t fewest = 0; // bytes of each
+  for (const Property& property : element.properties)
+    fewest += !order ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
+  // The last line of a text may end without a newline.
+  requireRoom (what, element.count, fewest, order ? rest.size () : scanner.rest ().size () + 1);
+  const std::vector<Field*> fields = fieldsOf (element);
+  if (order && fields.size () == element.properties.size ()) {
+    viewRows (fields, file.at (file.view ().size () - rest.size ()), *order);
+    rest.remove_prefix (element.count * rowBytes (fields));
+    return;
   }
-
-  /// Binary elements without lists become views of the file.
-  /// \param keep whether to store the values of others, without lists, in rows of the fields
-  /// \param points which the corners of faces are
-  /// \param triangles get the faces; may be nullptr
-  void read (Element& element, bool keep, std::size_t points, Triangles* triangles)
-  {
-    std::size_t fewest = 0; // bytes of each
-    for (const Property& property : element.properties)
-      fewest +=
-          !order_ ? 2 : sizeOf (property.is_list ? property.length_type : property.field.type);
-    // The last line of a text may end without a newline.
-    requireRoom (element.what (), element.count, fewest,
-                 order_ ? rest_.size () : scanner_.rest ().size () + 1);
-    const std::vector<Field*> fields = fieldsOf (element);
-    if (order_ && fields.size () == element.properties.size ()) {
-      viewRows (fields, file_.at (file_.view ().size () - rest_.size ()), *order_);
-      rest_.remove_prefix (element.count * rowBytes (fields));
-      return;
-    }
-    char* to = keep ? allocateRows (fields, element.count).get () : nullptr; // the fields keep it
-    for (std::size_t row = 0; row < element.count; ++row) {
-      if (!order_ && !scanner_.nextFilledLine ())
-        failPromise (element.what (), element.count, row);
-      if (!order_ && !keep)
-        continue;
-      for (const Property& property : element.properties)
-        if (property.is_list)
-          readList (property, element, row, points, triangles);
-        else
-          visitType (property.field.type, [&] (auto value) {
-            value = next<decltype (value)> (element, row);
-            if (to != nullptr)
-              to = std::copy_n (reinterpret_cast<const char*> (&value), sizeof value, to);
-          });
-      if (!order_ && scanner_.hasWord ())
-        scanner_.fail ("it has more values than there are properties");
-    }
-  }
-
-private:
-  void readList (const Property& list, const Element& element, std::size_t row, std::size_t points,
-                 Triangles* triangles)
-  {
-    auto length = visitType (list.length_type, [&] (auto tag) {
-      return static_cast<std::size_t> (next<decltype (tag)> (element, row));
-    });
-    list_.clear ();
-    visitType (list.field.type, [&] (auto tag) {
-      for (; length > 0; --length)
-        list_.push_back (static_cast<double> (next<decltype (tag)> (element, row)));
-    });
-    const std::string& name = list.field.name;
-    if (triangles != nullptr && (name == "vertex_indices" || name == "vertex_index"))
-      addFan (list_, points, *triangles);
-  }
-
-  template <typename T>
-  T next (const Element& element, std::size_t row)
-  {
-    if (!order_)
-      return scanner_.number<T> ();
-    if (rest_.size () < sizeof (T))
-      failPromise (element.what (), element.count, row);
-    const T number = readNumber<T> (rest_.data (), *order_);
-    rest_.remove_prefix (sizeof (T));
+  const bool keep = triangles != nullptr || &element == vertices;
+  char* to = keep ? allocateRows (fields, element.count).get () : nullptr; // the fields keep it
+  std::vector<double> list;
+  std::size_t row = 0;
+  const auto next = [&] (auto number) {
+    if (!order)
+      return scanner.number<decltype (number)> ();
+    if (rest.size () < sizeof number)
+      failPromise (what, element.count, row);
+    number = readNumber<decltype (number)> (rest.data (), *order);
+    rest.remove_prefix (sizeof number);
     return number;
+  };
+  for (; row < element.count; ++row) {
+    if (!order && !scanner.nextFilledLine ())
+      failPromise (what, element.count, row);
+    if (!order && !keep)
+      continue;
+    for (const Property& property : element.properties) {
+      const std::string& name = property.field.name;
+      if (!property.is_list) {
+        visitType (property.field.type, [&] (auto value) {
+          value = next (value);
+          if (to != nullptr)
+            to = std::copy_n (reinterpret_cast<const char*> (&value), sizeof value, to);
+        });
+        continue;
+      }
+      auto length = visitType (property.length_type,
+                               [&] (auto tag) { return static_cast<std::size_t> (next (tag)); });
+      list.clear ();
+      visitType (property.field.type, [&] (auto tag) {
+        for (; length > 0; --length)
+          list.push_back (static_cast<double> (next (tag)));
+      });
+      if (triangles != nullptr && (name == "vertex_indices" || name == "vertex_index"))
+        addFan (list, vertices->count, *triangles);
+    }
+    if (!order && scanner.hasWord ())
+      scanner.fail ("it has more values than there are properties");
   }
-
-  const FileBytes& file_;
-  TextScanner& scanner_;
-  std::optional<ByteOrder> order_;
-  std::string_view rest_; // of a binary file
-  std::vector<double> list_;
-};
+}
 
 } // namespace
 
@@ -214,13 +193,10 @@ parsePly (const FileBytes& file, const ReadOptions& options)
   Triangles* const triangles = options.faces;
   const bool is_widened =
       options.all_digits && !header.byte_order && widenCoordinates (fieldsOf (vertices));
-  PlyElements elements (file, scanner, header.byte_order);
   const Element* const last =
       triangles != nullptr && faces != nullptr && faces > &vertices ? faces : &vertices;
-  for (Element* element = header.elements.data (); element <= last; ++element) {
-    Triangles* const its = element == faces ? triangles : nullptr;
-    elements.read (*element, element == &vertices || its != nullptr, vertices.count, its);
-  }
+  for (Element* element = header.elements.data (); element <= last; ++element)
+    readElement (file, scanner, header, *element, element == faces ? triangles : nullptr);
   std::vector<Field> fields;
   std::vector<std::string> warnings;
   for (Property& property : vertices.properties) {

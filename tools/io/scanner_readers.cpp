@@ -97,19 +97,6 @@ readHeader (std::string_view bytes)
   return header;
 }
 
-bool
-hasColors (std::string_view bytes, const LasHeader& header)
-{
-  constexpr std::size_t CHANNELS = 3 * sizeof (std::uint16_t);
-  for (std::size_t p = 0; p < header.count; ++p) {
-    const std::string_view color = bytes.substr (
-        header.points_at + p * header.record_size + COLOR_AT[header.format], CHANNELS);
-    if (color.find_first_not_of ('\0') != std::string_view::npos)
-      return true;
-  }
-  return false;
-}
-
 /// Numbers that share bytes, unpacked: class, return, and what the scanner's software says of it.
 void
 addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fields)
@@ -126,10 +113,9 @@ addBits (const FileBytes& file, const LasHeader& header, std::vector<Field>& fie
       {"return_number"}, {"number_of_returns"}, {"classification"}, {"synthetic"}, {"withheld"}};
   for (Field& field : unpacked)
     field.type = ScalarType::UINT8;
-  const auto count = static_cast<std::size_t> (header.count);
-  char* to = allocateRows (pointersTo (unpacked), count).get (); // which the fields keep
+  char* to = allocateRows (pointersTo (unpacked), header.count).get (); // which the fields keep
   const char* from = file.view ().data () + header.points_at + BITS_AT;
-  for (std::size_t p = 0; p < count; ++p, from += header.record_size)
+  for (std::size_t p = 0; p < header.count; ++p, from += header.record_size)
     for (const Bits& bits : all)
       *to++ = static_cast<char> (static_cast<unsigned char> (from[bits.byte]) >> bits.first &
                                  ((1U << bits.count) - 1U));
@@ -146,40 +132,16 @@ struct PtxPixels
   std::vector<bool> lack_return;
 };
 
-template <std::size_t N>
-std::array<double, N>
+template <int N>
+Eigen::Matrix<double, 1, N>
 readLine (TextScanner& scanner)
 {
   if (!scanner.nextFilledLine ())
     throw ReadError ("it ends within a scan; it is truncated");
-  std::array<double, N> numbers{};
+  Eigen::Matrix<double, 1, N> numbers;
   for (double& number : numbers)
     number = scanner.number<double> ();
   return numbers;
-}
-
-std::size_t
-readCount (TextScanner& scanner, std::size_t most)
-{
-  const double count = readLine<1> (scanner)[0];
-  if (!(count >= 1.0 && count <= static_cast<double> (most)))
-    scanner.fail ("this is no number of the rows or columns of a scan in this file");
-  return static_cast<std::size_t> (count);
-}
-
-void
-readPixel (TextScanner& scanner, const Eigen::Matrix<double, 4, 3>& pose, std::size_t scan,
-           PtxPixels& pixels)
-{
-  const std::array<double, 3> at = readLine<3> (scanner);
-  const Eigen::RowVector3d local (at[0], at[1], at[2]);
-  const Eigen::RowVector3d place = local * pose.topRows<3> () + pose.row (3);
-  pixels.coordinates.insert (pixels.coordinates.end (), place.begin (), place.end ());
-  pixels.lack_return.push_back (local.isZero (0.0));
-  pixels.intensities.push_back (scanner.hasWord () ? scanner.number<float> () : 0.0F);
-  pixels.scans.push_back (static_cast<std::uint16_t> (scan));
-  while (scanner.hasWord ())
-    pixels.colors.push_back (scanner.number<std::uint8_t> ());
 }
 
 /// Normals of a scan, towards its sensor, from the pixels before and behind in either direction; zero
@@ -194,11 +156,9 @@ addNormals (const PtxPixels& pixels, std::size_t first, std::size_t columns, std
   for (std::size_t i = 0; i < columns * rows; ++i) {
     Eigen::Vector3f& normal = normals.emplace_back (0.0F, 0.0F, 0.0F);
     const std::size_t column = i / rows, row = i % rows, pixel = first + i;
-    if (column == 0 || column + 1 == columns || row == 0 || row + 1 == rows)
-      continue;
     const auto& lack = pixels.lack_return;
-    if (lack[pixel] || lack[pixel - 1] || lack[pixel + 1] || lack[pixel - rows] ||
-        lack[pixel + rows])
+    if (column == 0 || column + 1 == columns || row == 0 || row + 1 == rows || lack[pixel] ||
+        lack[pixel - 1] || lack[pixel + 1] || lack[pixel - rows] || lack[pixel + rows])
       continue;
     const Eigen::Vector3d across =
         (at (pixel + 1) - at (pixel - 1)).cross (at (pixel + rows) - at (pixel - rows));
@@ -233,15 +193,18 @@ parseLas (const FileBytes& file, const ReadOptions& /*options*/)
   if (time_at > 0)
     add ("gps_time", ScalarType::FLOAT64, time_at);
   std::vector<std::string> warnings;
-  if (color_at > 0 && !hasColors (bytes, header))
+  bool are_black = color_at > 0;
+  for (std::size_t p = 0; p < header.count && are_black; ++p)
+    are_black = bytes.substr (header.points_at + p * header.record_size + color_at, 6)
+                    .find_first_not_of ('\0') == std::string_view::npos;
+  if (are_black)
     warnings.emplace_back ("all colours of the input file are black: they were left out");
   else if (color_at > 0) { // of 16 bits by the specification, often 8 in fact
     add ("r", ScalarType::UINT16, color_at);
     add ("g", ScalarType::UINT16, color_at + 2);
     add ("b", ScalarType::UINT16, color_at + 4);
   }
-  Cloud cloud =
-      makeCloud (std::move (fields), static_cast<std::size_t> (header.count), std::move (warnings));
+  Cloud cloud = makeCloud (std::move (fields), header.count, std::move (warnings));
   // A centimetre of height is 1e-7 degrees.
   constexpr double FINER = 1e3;
   cloud.may_be_degrees = FINER * std::abs (header.scales[0]) <= std::abs (header.scales[2]);
@@ -257,19 +220,30 @@ parsePtx (const FileBytes& file, const ReadOptions& /*options*/)
   std::size_t scan = 0;
   std::ostringstream scans;
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero ();
-  while (!scanner.restIsBlank ()) {
-    const std::size_t columns = readCount (scanner, file.view ().size ());
-    const std::size_t rows = readCount (scanner, file.view ().size () / columns);
+  const auto toCount = [&scanner] (double count, std::size_t most) {
+    if (!(count >= 1.0 && count <= static_cast<double> (most)))
+      scanner.fail ("this is no number of the rows or columns of a scan in this file");
+    return static_cast<std::size_t> (count);
+  };
+  while (scanner.nextFilledLine ()) {
+    const std::size_t columns = toCount (scanner.number<double> (), file.view ().size ());
+    const std::size_t rows = toCount (readLine<1> (scanner)[0], file.view ().size () / columns);
     for (int line = 0; line < 4; ++line) // of the scanner, as the matrix has them
       readLine<3> (scanner);
     Eigen::Matrix<double, 4, 3> pose;
-    for (Eigen::Index row = 0; row < 4; ++row) {
-      const std::array<double, 4> numbers = readLine<4> (scanner);
-      pose.row (row) << numbers[0], numbers[1], numbers[2];
-    }
+    for (Eigen::Index row = 0; row < 4; ++row)
+      pose.row (row) = readLine<4> (scanner).head<3> ();
     const std::size_t first = pixels.lack_return.size ();
-    for (std::size_t pixel = 0; pixel < rows * columns; ++pixel)
-      readPixel (scanner, pose, scan, pixels);
+    for (std::size_t pixel = 0; pixel < rows * columns; ++pixel) {
+      const Eigen::RowVector3d local = readLine<3> (scanner);
+      const Eigen::RowVector3d place = local * pose.topRows<3> () + pose.row (3);
+      pixels.coordinates.insert (pixels.coordinates.end (), place.begin (), place.end ());
+      pixels.lack_return.push_back (local.isZero (0.0));
+      pixels.intensities.push_back (scanner.hasWord () ? scanner.number<float> () : 0.0F);
+      pixels.scans.push_back (static_cast<std::uint16_t> (scan));
+      while (scanner.hasWord ())
+        pixels.colors.push_back (scanner.number<std::uint8_t> ());
+    }
     addNormals (pixels, first, columns, rows, pose.row (3), normals);
     sensor = pose.row (3);
     if (++scan > std::size_t{1} << 16U)

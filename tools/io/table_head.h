@@ -288,7 +288,7 @@ isFirstPoint (std::string_view line, const std::array<std::size_t, 3>& chosen, T
     const bool is_header = header.size () == words.size ();
     if (is_chosen && !head.has_names)
       head.columns = is_header ? header : std::vector<Column> (words.size ());
-    if (is_chosen)
+    if (is_chosen && words.size () <= head.columns.size ()) // else it is no point
       chooseColumns (chosen, head.columns);
     std::vector<Column> plain (words.size ());
     chooseColumns ({1, 2, 3}, plain);
@@ -310,17 +310,6 @@ isFirstPoint (std::string_view line, const std::array<std::size_t, 3>& chosen, T
   return false;
 }
 
-[[noreturn]] inline void
-failWithoutPoints (const TableHead& head, const std::string& where, bool is_chosen)
-{
-  throw ReadError ("it has no points: no line" + where + " has three numbers, x, y and z" +
-                   (is_chosen        ? ", in the columns of --columns"
-                    : head.has_names ? ", in the columns that its header names"
-                                     : "") +
-                   (head.skipped > 0 ? "; it begins with " + head.first_skipped : "") +
-                   (is_chosen ? "" : "; --columns chooses other columns than the first three"));
-}
-
 /// Reads up to the first point, and that line.
 /// \return its text
 inline std::string_view
@@ -328,6 +317,14 @@ readHead (TextScanner& scanner, const std::array<std::size_t, 3>& chosen, TableH
 {
   constexpr std::size_t LONGEST = 1U << 16U; // characters; a line that is longer is no text
   constexpr std::size_t MOST_SKIPPED = 1000; // lines; a file with more before its points has none
+  const auto withoutPoints = [&head, is_chosen = chosen[0] > 0] (const std::string& where) {
+    return ReadError ("it has no points: no line" + where + " has three numbers, x, y and z" +
+                      (is_chosen        ? ", in the columns of --columns"
+                       : head.has_names ? ", in the columns that its header names"
+                                        : "") +
+                      (head.skipped > 0 ? "; it begins with " + head.first_skipped : "") +
+                      (is_chosen ? "" : "; --columns chooses other columns than the first three"));
+  };
   while (scanner.nextFilledLine ()) {
     const std::string_view line = scanner.restOfLine ();
     const std::optional<std::string_view> comment = commentText (line);
@@ -355,9 +352,9 @@ readHead (TextScanner& scanner, const std::array<std::size_t, 3>& chosen, TableH
         head.first_skipped = quoted (line);
     }
     if (head.skipped > MOST_SKIPPED)
-      failWithoutPoints (head, " of the first " + std::to_string (MOST_SKIPPED), chosen[0] > 0);
+      throw withoutPoints (" of the first " + std::to_string (MOST_SKIPPED));
   }
-  failWithoutPoints (head, "", chosen[0] > 0);
+  throw withoutPoints ("");
 }
 
 } // namespace pcl::floater

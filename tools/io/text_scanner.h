@@ -117,12 +117,6 @@ public:
     return text_.substr (first, end_ - first);
   }
 
-  /// Whether nothing is left but blanks and ends of lines.
-  bool restIsBlank () const
-  {
-    return rest ().find_first_not_of (" \t\r\n\v\f") == std::string_view::npos;
-  }
-
   char newline () const { return newline_; }
 
   /// The rest of the line and the text after it.

@@ -40,9 +40,21 @@ public:
     if (!find ("POINTS"))
       throw ReadError ("it has no POINTS");
     const std::size_t points = count ();
-    const ScalarType type = vtkType (word ());
-    std::vector<Field> fields{{"x", type}, {"y", type}, {"z", type}};
-    readArray ({&fields[0], &fields[1], &fields[2]}, points);
+    std::vector<Field> fields;
+    const auto addColumns = [&] (const std::vector<std::string>& names, std::size_t each,
+                                 ScalarType type) {
+      if (each < names.size ())
+        throw ReadError ("its " + section_ + " have fewer than " + std::to_string (names.size ()) +
+                         " values for each point");
+      Field all{"", type, each};
+      readArray (all, points);
+      const char* at = all.first.get ();
+      for (const std::string& name : names) {
+        fields.push_back ({name, type, 1, {all.first, at}, all.stride, all.order});
+        at += sizeOf (type);
+      }
+    };
+    addColumns ({"x", "y", "z"}, 3, vtkType (word ()));
     if (has_polygons && find ("POLYGONS"))
       readPolygons (points, triangles);
     const bool has_data = find ("POINT_DATA") && count () == points;
@@ -54,19 +66,6 @@ public:
       if (is_found)
         word (); // its name
       return is_found;
-    };
-    const auto addColumns = [&] (const std::vector<std::string>& names, std::size_t each,
-                                 ScalarType column_type) {
-      if (each < names.size ())
-        throw ReadError ("its " + section_ + " have fewer than " + std::to_string (names.size ()) +
-                         " values for each point");
-      std::vector<Field> columns;
-      columns.reserve (names.size () + 1);
-      for (const std::string& name : names)
-        columns.push_back ({name, column_type});
-      columns.push_back ({"", column_type, each - names.size ()});
-      readArray (pointersTo (columns), points);
-      fields.insert (fields.end (), columns.begin (), columns.end () - 1);
     };
     if (findData ("COLOR_SCALARS"))
       addColumns ({"red", "green", "blue"}, count (),
@@ -89,13 +88,13 @@ private:
     Field offsets{"", ScalarType::INT32}, corners = offsets;
     if (has_offsets) {
       offsets.type = vtkType (word ());
-      readArray ({&offsets}, rows);
+      readArray (offsets, rows);
       word (); // CONNECTIVITY
       corners.type = vtkType (word ());
     }
     else
       at_ = before;
-    readArray ({&corners}, size);
+    readArray (corners, size);
     const auto whole = static_cast<double> (size);
     double end = 0.0;
     std::vector<double> polygon;
@@ -117,26 +116,23 @@ private:
   }
 
   // Binary values stay in the file.
-  void readArray (const std::vector<Field*>& fields, std::size_t rows)
+  void readArray (Field& field, std::size_t rows)
   {
     if (is_binary_)
       skipLine ();
-    const std::size_t row_bytes = rowBytes (fields);
-    std::size_t text_bytes = 0; // a value of a text is a digit and a blank, but for the last one
-    for (const Field* field : fields)
-      text_bytes += 2 * field->count;
-    requireRoom ("rows of its " + section_, rows, is_binary_ ? row_bytes : text_bytes,
+    // A value of a text is a digit and a blank, but for the last one.
+    requireRoom ("rows of its " + section_, rows,
+                 is_binary_ ? field.pointBytes () : 2 * field.count,
                  bytes_.size () - at_ + (is_binary_ ? 0 : 1));
     if (is_binary_) {
-      viewRows (fields, file_.at (at_), ByteOrder::big);
-      at_ += rows * row_bytes;
+      viewRows ({&field}, file_.at (at_), ByteOrder::big);
+      at_ += rows * field.stride;
       return;
     }
-    char* to = allocateRows (fields, rows).get (); // which the fields keep
+    char* to = allocateRows ({&field}, rows).get (); // which the field keeps
     for (std::size_t row = 0; row < rows; ++row)
-      for (const Field* field : fields)
-        to = putValues (*field, to,
-                        [this] (auto tag, std::size_t) { return number<decltype (tag)> (); });
+      to = putValues (field, to,
+                      [this] (auto tag, std::size_t) { return number<decltype (tag)> (); });
   }
 
   // Goes on after the name of a section, if there is one after this place.
@@ -208,28 +204,25 @@ countIn (std::string_view tag, std::string_view name, std::size_t if_none)
 }
 
 /// Bytes as they are, or in groups of base64, each of which may end with padding.
-class EncodedBytes
+struct EncodedBytes
 {
-public:
-  EncodedBytes (std::string_view text, bool is_raw) : text_ (text), is_raw_ (is_raw) {}
-
   std::string read (std::size_t bytes)
   {
     constexpr std::string_view DIGITS =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string decoded (is_raw_ ? text_.substr (0, bytes) : "");
-    text_.remove_prefix (decoded.size ());
-    for (; decoded.size () < bytes && !is_raw_ && !text_.empty (); text_.remove_prefix (1)) {
-      const std::size_t digit = DIGITS.find (text_.front ());
+    std::string decoded (is_raw ? text.substr (0, bytes) : "");
+    text.remove_prefix (decoded.size ());
+    for (; decoded.size () < bytes && !is_raw && !text.empty (); text.remove_prefix (1)) {
+      const std::size_t digit = DIGITS.find (text.front ());
       if (digit == std::string_view::npos) {
-        bits_ = text_.front () == '=' ? 0 : bits_;
+        bits = text.front () == '=' ? 0 : bits;
         continue;
       }
-      last_ = last_ << 6U | static_cast<std::uint32_t> (digit);
-      bits_ += 6;
-      if (bits_ >= 8) {
-        bits_ -= 8;
-        decoded += static_cast<char> (last_ >> bits_ & 255U);
+      last = last << 6U | static_cast<std::uint32_t> (digit);
+      bits += 6;
+      if (bits >= 8) {
+        bits -= 8;
+        decoded += static_cast<char> (last >> bits & 255U);
       }
     }
     if (decoded.size () < bytes)
@@ -237,34 +230,31 @@ public:
     return decoded;
   }
 
-private:
-  std::string_view text_;
-  bool is_raw_;
-  std::uint32_t last_ = 0; // digits
-  unsigned bits_ = 0;      // of them that belong to the next byte
+  std::string_view text;
+  bool is_raw;
+  std::uint32_t last = 0; ///< digits
+  unsigned bits = 0;      ///< of them that belong to the next byte
 };
 
 class VtpParser
 {
 public:
-  explicit VtpParser (std::string_view text) : text_ (text)
-  {
-    std::size_t at = 0;
-    root_ = findTag ("<VTKFile", at);
-    if (root_.empty ())
-      throw ReadError ("it has no <VTKFile>, so it is not a VTK file in XML");
-    order_ = attributeOf (root_, "byte_order") == "BigEndian" ? ByteOrder::big : ByteOrder::little;
-    has_long_headers_ = attributeOf (root_, "header_type") == "UInt64";
-    const std::string_view compressor = attributeOf (root_, "compressor");
-    is_compressed_ = !compressor.empty ();
-    if (is_compressed_ && compressor != "vtkZLibDataCompressor")
-      throw ReadError ("it is compressed by " + quoted (compressor) +
-                       ", which cannot be read; save it without, or with zlib");
-  }
+  explicit VtpParser (std::string_view text) : text_ (text) {}
 
   Cloud parse ()
   {
     std::size_t at = 0;
+    const std::string_view root = findTag ("<VTKFile", at);
+    if (root.empty ())
+      throw ReadError ("it has no <VTKFile>, so it is not a VTK file in XML");
+    order_ = attributeOf (root, "byte_order") == "BigEndian" ? ByteOrder::big : ByteOrder::little;
+    has_long_headers_ = attributeOf (root, "header_type") == "UInt64";
+    const std::string_view compressor = attributeOf (root, "compressor");
+    is_compressed_ = !compressor.empty ();
+    if (is_compressed_ && compressor != "vtkZLibDataCompressor")
+      throw ReadError ("it is compressed by " + quoted (compressor) +
+                       ", which cannot be read; save it without, or with zlib");
+    at = 0;
     const std::string_view piece = findTag ("<Piece", at);
     points_ = countIn (piece, "NumberOfPoints", 0);
     if (std::size_t next = at; !findTag ("<Piece", next).empty ())
@@ -362,7 +352,6 @@ private:
     if (values.size () != bytes)
       throw ReadError ("an array has not as many values as there are points");
     const std::string name (attributeOf (tag, "Name"));
-    const std::size_t before = fields.size ();
     std::vector<std::string> names{name};
     if (is_place && each >= 3)
       names = {"x", "y", "z"};
@@ -374,11 +363,11 @@ private:
     addColumns (names, *type, std::move (values), fields, each);
     if (names.size () == 1)
       fields.back ().count = each;
-    for (std::size_t f = before; f < fields.size (); ++f)
+    for (std::size_t f = fields.size () - names.size (); f < fields.size (); ++f)
       fields[f].order = order;
   }
 
-  std::string_view text_, root_;
+  std::string_view text_;
   ByteOrder order_ = ByteOrder::little;
   bool has_long_headers_ = false, is_compressed_ = false;
   std::size_t points_ = 0;

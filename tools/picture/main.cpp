@@ -68,7 +68,7 @@ main (int argc, char** argv)
           "give a PARAMETERIZATION, or --checkerboard or --texture, not both");
     requireWritable (files.back ());
     PictureOptions options;
-    options.flat_shading = is_flat;
+    options.shading = is_flat ? Shading::FLAT : Shading::SMOOTH;
     if (!viewpoint.empty ())
       options.viewpoint.emplace (viewpoint[0], viewpoint[1], viewpoint[2]);
     PictureMesh mesh = readNamed (files[0], [&] {

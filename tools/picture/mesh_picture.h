@@ -65,15 +65,6 @@ struct Camera
   Eigen::Vector3d origin; ///< the middle of the picture; in perspective, the viewer
   double half_side;       ///< of the picture; in perspective, at the distance 1
   bool is_perspective;
-
-  Spot project (const Eigen::Vector3d& point, double side) const
-  {
-    const Eigen::Vector3d p = axes * (point - origin);
-    const double weight = is_perspective ? -1.0 / p.z () : 1.0;
-    const double pixels = 0.5 * side / half_side * weight;
-    return {0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y (),
-            is_perspective ? weight : p.z (), weight};
-  }
 };
 
 constexpr double MARGIN = 1.06; // side of the picture over that of the mesh in it
@@ -197,11 +188,17 @@ inline std::vector<Spot>
 project (const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Canvas& canvas,
          double lift = 0.0)
 {
+  const double side = canvas.side ();
   std::vector<Spot> spots;
   spots.reserve (points.size ());
   for (const Eigen::Vector3d& point : points) {
-    spots.push_back (camera.project (point, canvas.side ()));
-    spots.back ().nearness += lift * 2.0 * camera.half_side / canvas.side () * spots.back ().weight;
+    const Eigen::Vector3d p = camera.axes * (point - camera.origin);
+    const double weight = camera.is_perspective ? -1.0 / p.z () : 1.0;
+    const double pixels = 0.5 * side / camera.half_side * weight;
+    const double nearness = camera.is_perspective ? weight : p.z ();
+    spots.push_back ({{0.5 * side + pixels * p.x (), 0.5 * side - pixels * p.y ()},
+                      nearness + lift * 2.0 * camera.half_side / side * weight,
+                      weight});
   }
   return spots;
 }
@@ -211,28 +208,20 @@ inline void
 drawEdges (Canvas& canvas, const std::vector<Spot>& spots, const Triangles& triangles,
            double opacity)
 {
-  constexpr unsigned HALF = 32; // of the bits of an edge: the lower and the higher of its vertices
-  std::vector<std::uint64_t> edges;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges; // the lower and the higher vertex
   edges.reserve (3 * triangles.size ());
   for (const auto& triangle : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax (triangle[i], triangle[(i + 1) % 3]);
-      edges.push_back (std::uint64_t{low} << HALF | high);
-    }
-  const auto draw = [&] (std::uint64_t edge, int width, const Colour& colour, double its_opacity) {
-    canvas.drawLine (spots[edge >> HALF], spots[static_cast<std::uint32_t> (edge)], width, colour,
-                     its_opacity);
-  };
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.emplace_back (std::minmax (triangle[i], triangle[(i + 1) % 3]));
   if (opacity > 0.0)
-    for (const std::uint64_t edge : edges)
-      draw (edge, EDGE_WIDTH, EDGE, opacity);
+    for (const auto& [a, b] : edges)
+      canvas.drawLine (spots[a], spots[b], EDGE_WIDTH, EDGE, opacity);
   // Those that one triangle has.
   std::sort (edges.begin (), edges.end ());
   for (auto edge = edges.begin (), next = edge; edge != edges.end (); edge = next) {
-    next =
-        std::find_if (edge, edges.end (), [edge] (std::uint64_t other) { return other != *edge; });
+    next = std::find_if (edge, edges.end (), [edge] (const auto& other) { return other != *edge; });
     if (next - edge == 1)
-      draw (*edge, BOUNDARY_WIDTH, BOUNDARY, 1.0);
+      canvas.drawLine (spots[edge->first], spots[edge->second], BOUNDARY_WIDTH, BOUNDARY, 1.0);
   }
 }
 
@@ -247,23 +236,26 @@ enum class Shading
   SMOOTH
 };
 
-// \param image by texture coordinates; without one, front and back sides have their colours
+// \param texture by texture coordinates; without one, front and back sides have their colours
 inline void
 drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
-               const std::optional<ColourImage>& image, Shading shading)
+               std::optional<ColourImage> texture, Shading shading)
 {
   const std::vector<Spot> spots = project (mesh.points, camera, canvas);
-  std::optional<Texture> texture;
-  if (image) {
+  if (texture) {
     double on_canvas = 0.0, in_image = 0.0; // areas, in pixels
     for (const auto& [a, b, c] : mesh.triangles) {
       const Eigen::Vector2d u = mesh.coordinates[b] - mesh.coordinates[a],
                             v = mesh.coordinates[c] - mesh.coordinates[a];
       on_canvas += std::abs (Canvas::signedArea ({spots[a], spots[b], spots[c]}));
       in_image += std::abs (u.x () * v.y () - u.y () * v.x ()) *
-                  static_cast<double> (image->pixels.size ());
+                  static_cast<double> (texture->pixels.size ());
     }
-    texture.emplace (*image, on_canvas > 0.0 ? std::sqrt (in_image / on_canvas) : 1.0);
+    // Its pixels become about as large as those of the canvas, so that none is passed over.
+    constexpr double MOST = 1.5; // in one of the canvas, along a side
+    double pixels = on_canvas > 0.0 ? std::sqrt (in_image / on_canvas) : 1.0;
+    for (; pixels > MOST && std::min (texture->width, texture->height) > 1; pixels /= 2.0)
+      texture = halved (*texture);
   }
   // As the camera sees them: unit normals of triangles, and their sums around the vertices.
   std::vector<Eigen::Vector3d> normals, sums (mesh.points.size (), Eigen::Vector3d::Zero ());
@@ -290,7 +282,7 @@ drawTriangles (Canvas& canvas, const PictureMesh& mesh, const Camera& camera,
     canvas.fill (corners, [&] (const Eigen::Vector3d& shares) -> Colour {
       Colour colour = side > 0.0 ? FRONT : BACK;
       if (texture)
-        colour = (*texture) (mean (mesh.coordinates, shares));
+        colour = colourAt (*texture, mean (mesh.coordinates, shares));
       if (shading == Shading::NONE)
         return colour;
       const Eigen::Vector3d normal =
@@ -310,7 +302,7 @@ struct PictureOptions
   std::optional<PictureMesh> parameterization; ///< in the plane; its edges are drawn beside
   /// Image on the mesh, by its texture coordinates; beside it, the same in the square of the texture.
   std::optional<ColourImage> texture;
-  bool flat_shading = false; ///< one shade for each triangle, which shows bumps
+  Shading shading = Shading::SMOOTH; ///< FLAT is one for each triangle, which shows bumps
   /// From where the mesh is seen, if it lies within 60 degrees of one direction from there.
   std::optional<Eigen::Vector3d> viewpoint;
 };
@@ -332,8 +324,7 @@ drawMesh (PictureMesh mesh, std::size_t height, const PictureOptions& options)
     camera = aimFromViewpoint (mesh.scale * (*options.viewpoint - mesh.centre), mesh.points);
   if (!camera)
     camera = aimCamera (chooseView (mesh), mesh.points);
-  drawTriangles (canvas, mesh, *camera, options.texture,
-                 options.flat_shading ? Shading::FLAT : Shading::SMOOTH);
+  drawTriangles (canvas, mesh, *camera, options.texture, options.shading);
   const auto copyTo = [&] (std::size_t left) {
     const ColourImage panel = halved (canvas.image ());
     for (std::size_t row = 0; row < height; ++row)
