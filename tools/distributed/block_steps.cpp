@@ -94,7 +94,7 @@ neighborsStep (const StepContext& context, std::size_t block)
     return put (context, "neighbors", block);
   BlockSearch search (cloud.cutter (), block, HALO);
   const CsrLists neighbors =
-      findNearestOfBlock (search, cloud.points (), context.options.neighbors.k, context.run);
+      findNearestOfBlock (search, cloud.cutter ().points, context.options.neighbors.k, context.run);
   put (context, "neighbors", block, {{"ids", neighbors.ids}});
 }
 
@@ -130,8 +130,8 @@ planesStep (const StepContext& context, std::size_t block)
     nearest = cloud.nearest (cloud.own (block));
   else {
     BlockSearch search (cloud.cutter (), block, HALO);
-    nearest =
-        findNearestOfBlock (search, cloud.points (), context.options.neighbors.k, context.run);
+    nearest = findNearestOfBlock (search, cloud.cutter ().points, context.options.neighbors.k,
+                                  context.run);
   }
   const StarSettings settings = starSettings ({context.options, context.limits, context.run});
   BlockSearch search (cloud.cutter (), block, PLANE_HALO, nearest.ids);
