@@ -42,13 +42,12 @@ describeInputs (const Job& job)
 
 // Identifies a plan: the same for the same files, parameters and arguments of the one that made it.
 std::uint64_t
-planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
-        const std::vector<std::string>& arguments)
+planId (const std::vector<InputFile>& inputs, const Plan& plan, std::size_t blocks)
 {
   ManifestJson sums = ManifestJson::array ();
   for (const InputFile& input : inputs)
     sums.push_back ({input.bytes, input.checksum});
-  return hash (dump ({WORK_FORMAT, parameters, sums, arguments, blocks}));
+  return hash (dump ({WORK_FORMAT, plan.parameters, sums, plan.arguments, blocks}));
 }
 
 // Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
@@ -161,13 +160,12 @@ void
 requirePlan (const Job& job, const Store& store, const Plan& plan)
 {
   const std::vector<InputFile> inputs = describeInputs (job);
-  if (plan.parameters != parametersText (job))
-    throw WorkError ("the options are not those of '" + store.path (MANIFEST).string () +
-                     "'; give the same, or name another work folder");
-  if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
-    throw WorkError ("the input files or the number of blocks are not those of '" +
-                     store.path (MANIFEST).string () +
-                     "'; give the same, or name another work folder");
+  const bool are_options = plan.parameters != parametersText (job);
+  if (are_options || planId (inputs, plan, job.blocks) != plan.id)
+    throw WorkError (
+        std::string (are_options ? "the options" : "the input files or the number of blocks") +
+        " are not those of '" + store.path (MANIFEST).string () +
+        "'; give the same, or name another work folder");
 }
 
 int
@@ -190,13 +188,12 @@ planStep (const Job& job, const Store& store)
   plan.figures.vertices = static_cast<std::size_t> (
       std::count_if (input.positions.begin (), input.positions.end (),
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
-  const RunContext run (job.join_threads);
-  const Options options = effectiveOptions (line.options);
-  const Limits limits = effectiveLimits ({}, line.options);
+  const StepContext context{store, plan, line, job.join_threads};
   Points points;
   Report report;
   const std::array<double, 3> sensor_origin = input.sensor_origin;
-  Problem problem = takePoints (input, {options, limits, run, sensor_origin}, points, report);
+  Problem problem = takePoints (
+      input, {context.options, context.limits, context.run, sensor_origin}, points, report);
   if (!problem)
     problem = checkPoints (points);
   if (problem) {
@@ -215,7 +212,7 @@ planStep (const Job& job, const Store& store)
   plan.scale = points.scale;
   plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
-  plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
+  plan.id = planId (plan.inputs, plan, job.blocks);
   writePoints (store, POINTS, plan.id, points, report.outliers);
   ManifestJson json = plan;
   json["format"] = FORMAT;
