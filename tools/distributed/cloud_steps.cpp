@@ -88,9 +88,6 @@ private:
 // The manifest, in the folder of the tiles. It is written last.
 constexpr const char* TILES = "tiles.json";
 
-constexpr const char* TILES_FORMAT = "pcl_floater tiles";
-constexpr int VERSION = 1;
-
 /// The field that has the number of each vertex in the whole mesh. It is a double: PLY has no
 /// 64-bit integers, and a double holds all whole numbers up to 2^53.
 constexpr const char* VERTEX_NUMBER = "vertex_number";
@@ -179,11 +176,10 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
       place_of[vertex] = static_cast<Index> (rows.size ());
       rows.push_back (cloud.row (vertex));
     }
-    Triangles local;
-    for (const Index t : its_triangles.row (tile)) {
-      const auto& [a, b, c] = triangles[t];
-      local.push_back ({place_of[a], place_of[b], place_of[c]});
-    }
+    Triangles local = valuesAt (triangles, its_triangles.row (tile));
+    for (Triangle& triangle : local)
+      for (Index& corner : triangle)
+        corner = place_of[corner];
     Cloud part = copyRows (cloud, rows);
     replaceColumns ({VERTEX_NUMBER}, ScalarType::FLOAT64,
                     std::vector<double> (vertices.begin (), vertices.end ()), part.fields);
@@ -215,8 +211,8 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
   if (cloud.find (VERTEX_NUMBER) != nullptr)
     losses.push_back (std::string ("the field '") + VERTEX_NUMBER +
                       "' of the points was left out: in tiles it has the numbers of the vertices");
-  const Json manifest{{"format", TILES_FORMAT},
-                      {"version", VERSION},
+  const Json manifest{{"format", "pcl_floater tiles"},
+                      {"version", 1},
                       {"points", cloud.size ()},
                       {"triangles", triangles.size ()},
                       {"vertex_number", VERTEX_NUMBER},
@@ -253,7 +249,7 @@ int
 joinStep (const Job& job, const Store& store, const Plan& plan)
 {
   const auto start = std::chrono::steady_clock::now ();
-  CommandLine line = job.line;
+  const CommandLine& line = job.line;
   const StepContext context{store, plan, line, job.join_threads};
   checkMemory (line, plan.cloudSize ());
   StoredStages stages (context);
@@ -272,14 +268,16 @@ joinStep (const Job& job, const Store& store, const Plan& plan)
   figures.reconstruct_seconds = secondsSince (start);
   figures.writes_single = line.precision != Precision::DOUBLE;
   completeReport (line, plan.warnings, report);
-  line.input = job.inputs.front ();
   writeFile (store.path (REPORT), reportText (line, report, figures), true);
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
   store.put (TRIANGLES, {{"triangles", result.triangles}}, plan.id);
   if (job.frees_disk)
-    forBlockFiles (plan, [&store] (const std::string& name) { store.remove (name); });
+    forBlockFiles (plan, [&store] (const std::string& name) {
+      std::error_code error; // a file that stays costs room only
+      std::filesystem::remove (store.path (name), error);
+    });
   return EXIT_OK;
 }
 

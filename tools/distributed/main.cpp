@@ -339,7 +339,7 @@ printSteps (const Job& job, const Store& store)
 int
 run (Job job)
 {
-  const Store store (job.work);
+  const Store store{job.work};
   if ((job.step != nullptr || job.prints_steps) && job.inputs.empty ()) {
     // The command line that made the plan; what belongs to this step comes from this one.
     Job planned;
@@ -350,7 +350,6 @@ run (Job job)
     planned.line.quiet = job.line.quiet;
     job.line = planned.line;
     job.inputs = planned.inputs;
-    job.arguments = planned.arguments;
     job.blocks = planned.blocks;
     job.writes_tiles = planned.writes_tiles;
     job.is_from_manifest = true;

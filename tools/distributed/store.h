@@ -186,12 +186,11 @@ private:
 };
 
 /// The work folder. Its files are visible when they are complete and on the disk.
-class Store
+struct Store
 {
-public:
-  explicit Store (std::filesystem::path folder) : folder_ (std::move (folder)) {}
+  std::filesystem::path folder;
 
-  std::filesystem::path path (const std::string& name) const { return folder_ / name; }
+  std::filesystem::path path (const std::string& name) const { return folder / name; }
   bool has (const std::string& name) const { return std::filesystem::exists (path (name)); }
   WorkFile open (const std::string& name) const { return WorkFile (path (name)); }
   ArrayFile arrays (const std::string& name, const Plan& plan) const
@@ -202,16 +201,6 @@ public:
   /// \param plan of which the arrays are a part
   /// \throws WriteError
   void put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan) const;
-
-  /// Removes a file, if it is there. Others that are open go on to read it.
-  void remove (const std::string& name) const
-  {
-    std::error_code error; // a file that stays costs room only
-    std::filesystem::remove (path (name), error);
-  }
-
-private:
-  std::filesystem::path folder_;
 };
 
 constexpr const char* MANIFEST = "manifest.json";
