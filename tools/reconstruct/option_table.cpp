@@ -11,14 +11,12 @@ namespace {
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word)
 {
+  std::vector<std::string> numbers;
+  boost::split (numbers, word, boost::is_any_of (","));
   Eigen::Vector3d place;
-  std::size_t first = 0;
-  bool is_good = std::count (word.begin (), word.end (), ',') == 2;
-  for (int axis = 0; axis < 3 && is_good; ++axis) {
-    const std::size_t comma = std::min (word.find (',', first), word.size ());
-    is_good = parseNumber (std::string_view (word).substr (first, comma - first), place[axis]);
-    first = comma + 1;
-  }
+  bool is_good = numbers.size () == 3;
+  for (std::size_t axis = 0; axis < 3 && is_good; ++axis)
+    is_good = parseNumber (numbers[axis], place[static_cast<Eigen::Index> (axis)]);
   return is_good && place.allFinite () ? std::optional (place) : std::nullopt;
 }
 
@@ -126,8 +124,7 @@ addTableOptions (CLI::App& app, CommandLine& line,
   addChoice (
       app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,
       "take the normals of the input for tangent planes, and, with --facing auto, for the front");
-  if (app.get_option_no_throw ("--largest-hole") != nullptr)
-    app.get_option ("--largest-hole")->excludes (app.get_option ("--largest-hole-length"));
+  app.get_option ("--largest-hole")->excludes (app.get_option ("--largest-hole-length"));
 }
 
 void

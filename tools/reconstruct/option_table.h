@@ -8,7 +8,7 @@
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
-#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string.hpp>
 
 #include <sstream>
 
