@@ -15,9 +15,7 @@ using Words = std::vector<std::string>;
 std::string
 plain (const std::string& word)
 {
-  std::string text = word.substr (std::min (word.find_first_not_of ('-'), word.size ()));
-  std::transform (text.begin (), text.end (), text.begin (), lowerCase);
-  return text;
+  return boost::to_lower_copy (boost::trim_left_copy_if (word, boost::is_any_of ("-")));
 }
 
 /// Letters of the longer word that are left when equal beginnings and ends are taken off both: one
@@ -168,6 +166,57 @@ areSame (const std::filesystem::path& a, const std::filesystem::path& b)
   return full (a) == full (b);
 }
 
+void
+checkPaths (const CommandLine& line)
+{
+  if (line.input_format == nullptr && isStandardStream (line.input))
+    throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
+                      "--input-format pcd");
+  if (line.input_format == nullptr)
+    readNamed (line.input, [&line] {
+      return requireCloudFormat (line.input, ", or give its format by --input-format");
+    });
+  // The first two are inputs.
+  const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
+      {{"INPUT", line.input},
+       {"--loop", line.loop},
+       {"OUTPUT", line.output},
+       {"--parameterization", line.parameterization},
+       {"--report", line.report},
+       {"--html", line.html},
+       {"the file of materials", line.materials ()},
+       {"--texture", line.texture}}};
+  for (const auto& [name, path] : all)
+    if (name.front () == '-' && isStandardStream (path))
+      throw UsageError (name + " takes the name of a file, not -");
+  for (const auto& [name, path] : {all[6], all[7]})
+    if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
+      throw UsageError ("the name of the file of materials or of the texture has a line break in "
+                        "it, which files in OBJ cannot hold; choose another one");
+  for (std::size_t i = 2; i < all.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto& [name, path] = all[i];
+      const auto& [other_name, other] = all[j];
+      if (!path.empty () && !other.empty () && !isStandardStream (path) &&
+          !isStandardStream (other) && areSame (path, other))
+        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
+                          "'; give different ones");
+    }
+  if (line.meshFormat () == nullptr && isStandardStream (line.output))
+    throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
+                      "--output-format ply");
+  if (line.meshFormat () == nullptr)
+    throw WriteError ("cannot write '" + line.output.string () +
+                      "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
+                      ", or give its format by --output-format");
+  if (!line.parameterization.empty () && meshFormatOf (line.parameterization) == nullptr)
+    throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
+                      unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
+  for (std::size_t i = 2; i < all.size (); ++i)
+    if (!all[i].second.empty ())
+      requireWritable (all[i].second);
+}
+
 } // namespace
 
 int
@@ -268,59 +317,8 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
       command_line.texture_coordinates || !command_line.texture.empty ();
   checkTextureOptions (command_line);
   checkMemoryLimit (command_line);
+  checkPaths (command_line);
   return std::nullopt;
-}
-
-void
-checkPaths (const CommandLine& line)
-{
-  if (line.input_format == nullptr && isStandardStream (line.input))
-    throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
-                      "--input-format pcd");
-  if (line.input_format == nullptr)
-    requireCloudFormat (line.input, ", or give its format by --input-format");
-  // The first two are inputs.
-  const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
-      {{"INPUT", line.input},
-       {"--loop", line.loop},
-       {"OUTPUT", line.output},
-       {"--parameterization", line.parameterization},
-       {"--report", line.report},
-       {"--html", line.html},
-       {"the file of materials", line.materials ()},
-       {"--texture", line.texture}}};
-  for (const auto& [name, path] : all)
-    if (name.front () == '-' && isStandardStream (path))
-      throw UsageError (name + " takes the name of a file, not -");
-  for (const auto& [name, path] : {all[6], all[7]})
-    if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
-      throw UsageError ("the name of the file of materials or of the texture has a line break in "
-                        "it, which files in OBJ cannot hold; choose another one");
-  const auto refuse = [] (const std::string& one, const std::string& other, const auto& path) {
-    throw UsageError (one + " and " + other + " are the same file, '" + path.string () +
-                      "'; give different ones");
-  };
-  for (std::size_t i = 2; i < all.size (); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto& [name, path] = all[i];
-      const auto& [other_name, other] = all[j];
-      if (!path.empty () && !other.empty () && !isStandardStream (path) &&
-          !isStandardStream (other) && areSame (path, other))
-        refuse (other_name, name, path);
-    }
-  if (line.meshFormat () == nullptr && isStandardStream (line.output))
-    throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
-                      "--output-format ply");
-  if (line.meshFormat () == nullptr)
-    throw WriteError ("cannot write '" + line.output.string () +
-                      "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
-                      ", or give its format by --output-format");
-  if (!line.parameterization.empty () && meshFormatOf (line.parameterization) == nullptr)
-    throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
-                      unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
-  for (std::size_t i = 2; i < all.size (); ++i)
-    if (!all[i].second.empty ())
-      requireWritable (all[i].second);
 }
 
 } // namespace pcl::floater

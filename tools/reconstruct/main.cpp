@@ -223,7 +223,6 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
 int
 run (CommandLine line)
 {
-  readNamed (line.input, [&] { checkPaths (line); });
   if (line.max_memory > 0)
     keepLargeArraysIn (line.scratch, line.max_memory);
   Progress progress (!line.quiet);
