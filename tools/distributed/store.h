@@ -174,7 +174,6 @@ private:
         return known;
     file_.refuse ("has no array '" + array + "'; delete it and run again");
   }
-  void readPiece (const ArrayEntry& array, std::uint64_t begin);
   /// \param bytes nullptr: the values are only compared with their checksums
   void readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes);
 
