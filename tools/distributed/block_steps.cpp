@@ -46,14 +46,10 @@ toPlaces (const BlockSearch& block, std::vector<Index>& points)
 CsrLists
 toPlaces (const BlockSearch& block, CsrLists lists)
 {
-  CsrLists places;
-  places.offsets.assign (block.points ().size () + 1, 0);
-  for (Index p = block.ownFirst (); p < block.ownLast (); ++p)
-    places.offsets[p + 1] = static_cast<Index> (lists.row (p - block.ownFirst ()).size ());
-  sumRowLengths (places.offsets);
-  places.ids = std::move (lists.ids);
-  toPlaces (block, places.ids);
-  return places;
+  lists.offsets.insert (lists.offsets.begin (), block.ownFirst (), 0);
+  lists.offsets.resize (block.points ().size () + 1, lists.offsets.back ());
+  toPlaces (block, lists.ids);
+  return lists;
 }
 
 /// Values of all points of a block, of those of its own. Others have 0.
