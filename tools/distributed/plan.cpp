@@ -100,14 +100,21 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
             std::vector<std::size_t>& firsts)
 {
   std::vector<Cloud> clouds;
+  Cloud merged;
   firsts = {0};
   for (const std::filesystem::path& file : files) {
-    clouds.push_back (readNamed (file, [&] { return readCloud (file, options); }));
-    firsts.push_back (firsts.back () + clouds.back ().rows);
+    const Cloud& cloud =
+        clouds.emplace_back (readNamed (file, [&] { return readCloud (file, options); }));
+    firsts.push_back (firsts.back () + cloud.rows);
+    const std::string named = "'" + file.string () + "': ";
+    for (const std::string& warning : cloud.warnings)
+      merged.warnings.push_back (named + warning);
+    for (const std::string& note : cloud.notes)
+      merged.notes.push_back (named + note);
+    merged.single_precision = merged.single_precision && cloud.single_precision;
   }
   if (clouds.size () == 1)
     return std::move (clouds.front ());
-  Cloud merged;
   merged.rows = firsts.back ();
   if (merged.rows > static_cast<std::size_t> (std::numeric_limits<std::int32_t>::max ()))
     throw ReadError ("the files have more points together than a mesh file can number "
@@ -124,24 +131,12 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
       merged.warnings.push_back ("the field '" + field.name +
                                  "' was left out: not all files have it with the same type");
   char* to = allocateRows (allFields (merged), merged.rows).get (); // which the fields keep
-  std::vector<std::string> warnings;                                // before those of the fields
-  for (std::size_t c = 0; c < clouds.size (); ++c) {
-    const Cloud& cloud = clouds[c];
-    const std::string named = "'" + files[c].string () + "': ";
-    for (const std::string& warning : cloud.warnings)
-      warnings.push_back (named + warning);
-    for (const std::string& note : cloud.notes)
-      merged.notes.push_back (named + note);
-    merged.single_precision = merged.single_precision && cloud.single_precision;
-    if (!cloud.left_out.empty ()) {
-      merged.left_out.resize (merged.rows, false);
-      std::copy (cloud.left_out.begin (), cloud.left_out.end (),
-                 merged.left_out.begin () + static_cast<std::ptrdiff_t> (firsts[c]));
-    }
+  for (const Cloud& cloud : clouds) {
     std::vector<const Field*> fields;
     for (const Field& field : merged.fields)
       fields.push_back (cloud.find (field.name));
     for (std::size_t row = 0; row < cloud.rows; ++row) {
+      merged.left_out.push_back (cloud.isLeftOut (row));
       for (const Field& field : cloud.coordinates) {
         const double coordinate = field.scaled (row); // as it is meant and not as it is in the file
         to = std::copy_n (reinterpret_cast<const char*> (&coordinate), sizeof coordinate, to);
@@ -152,7 +147,6 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
         });
     }
   }
-  merged.warnings.insert (merged.warnings.begin (), warnings.begin (), warnings.end ());
   return merged;
 }
 
