@@ -136,19 +136,21 @@ checkMemoryLimit (CommandLine& line)
     line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }
 
-// Warns of options that were given, and that the method of TW 385 sets otherwise.
+// Takes the options of TW 385. Warns of those that were given, and that it sets otherwise.
 void
-warnOfUnpublished (const CLI::App& app, const Options& given, const Options& effective,
-                   std::vector<std::string>& warnings)
+takePublished (const CLI::App& app, CommandLine& line)
 {
+  choosePublished (line.options.disc, app.count ("--boundary") > 0, app.count ("--ordering") > 0);
+  const OptionValues given (line.options);
+  line.options = effectiveOptions (line.options); // the report lists these
+  const OptionValues effective (line.options);
   Words names;
-  const OptionValues before (given), after (effective);
-  for (std::size_t i = 0; i < before.rows.size (); ++i)
-    if (const std::string name = toolName (before.rows[i].name);
-        before.values[i] != after.values[i] && app.count (name) > 0)
+  for (std::size_t i = 0; i < given.rows.size (); ++i)
+    if (const std::string name = toolName (given.rows[i].name);
+        given.values[i] != effective.values[i] && app.count (name) > 0)
       names.push_back (name);
   if (!names.empty ())
-    warnings.push_back (
+    line.warnings.push_back (
         (names.size () == 1 ? "an option has no effect: " : "options have no effect: ") +
         boost::join (names, ", ") + "; --method tw385 is that report and nothing else");
 }
@@ -297,13 +299,8 @@ parseCommandLine (int argc, char** argv, CommandLine& command_line)
   if (command_line.compute_normals && command_line.meshFormat () == writeStl)
     command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
                                         "triangles only, write .ply, .vtk or .obj");
-  if (command_line.options.disc.as_published) {
-    choosePublished (command_line.options.disc, app.count ("--boundary") > 0,
-                     app.count ("--ordering") > 0);
-    const Options given = command_line.options;
-    command_line.options = effectiveOptions (given); // the report lists these
-    warnOfUnpublished (app, given, command_line.options, command_line.warnings);
-  }
+  if (command_line.options.disc.as_published)
+    takePublished (app, command_line);
   if (command_line.input.empty () || command_line.output.empty ())
     throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");
   const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();
