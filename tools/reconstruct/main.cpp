@@ -207,10 +207,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     for (std::uint32_t& point : run.texture.points)
       point = cloud.pointOf (point);
     stageTexture (line, cloud, result, run.texture, files);
-    std::vector<std::uint32_t> points = run.texture.points; // points on seams are doubled
-    points.erase (std::unique (points.begin (), points.end ()), points.end ());
-    if (line.meshFormat () != writeObj)
-      run.vertices += run.texture.points.size () - points.size ();
+    const std::vector<std::uint32_t>& points = run.texture.points; // those on seams are doubled
+    for (std::size_t i = 1; line.meshFormat () != writeObj && i < points.size (); ++i)
+      run.vertices += points[i] == points[i - 1] ? 1 : 0;
   }
   stage (line.output, cloud, result.triangles, line.meshFormat (),
          line.texture_coordinates ? &run.texture : nullptr);
