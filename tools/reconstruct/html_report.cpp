@@ -87,15 +87,12 @@ findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
   constexpr CheckLimits LIMITS;
   const std::vector<Eigen::Vector3d>& positions = drawing.positions;
   const double precision = LIMITS.precision * boxAround (positions).diagonal ().norm ();
-  std::vector<Flaw> flaws{{"crossing", {}}, {"folded", {}}, {"flat", {}}, {"long", {}}};
-  const auto add = [] (Flaw& flaw, const std::vector<Index>& triangles) {
-    flaw.triangles.insert (flaw.triangles.end (), triangles.begin (), triangles.end ());
-  };
+  std::vector<Index> crossing, folded, flat, at_long_edges;
   if (has_crossings)
     for (const CrossingPair& pair : findSelfIntersections (mesh.triangles, positions, run))
-      add (flaws[0], {pair.first, pair.second});
+      crossing.insert (crossing.end (), {pair.first, pair.second});
   for (const MeshEdge edge : findFolds (mesh, positions, run))
-    add (flaws[1], {edge.triangle, mesh.mate (edge).triangle});
+    folded.insert (folded.end (), {edge.triangle, mesh.mate (edge).triangle});
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     double longest = 0.0;
@@ -106,12 +103,14 @@ findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
       longest = std::max (longest, length);
       if (other != NONE && other > t &&
           length > LIMITS.long_edge * 0.5 * (drawing.spacing[from] + drawing.spacing[to]))
-        add (flaws[3], {t, other});
+        at_long_edges.insert (at_long_edges.end (), {t, other});
     }
     const double height = areaVector (positions[a], positions[b], positions[c]).norm () / longest;
     if (!(height > precision || height > LIMITS.flat_height * longest))
-      add (flaws[2], {t});
+      flat.push_back (t);
   }
+  std::vector<Flaw> flaws{
+      {"crossing", crossing}, {"folded", folded}, {"flat", flat}, {"long", at_long_edges}};
   for (Flaw& flaw : flaws)
     sortUnique (flaw.triangles);
   return flaws;
