@@ -289,32 +289,31 @@ parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
 }
 
 std::optional<int>
-parseCommandLine (int argc, char** argv, CommandLine& command_line)
+parseCommandLine (int argc, char** argv, CommandLine& line)
 {
-  CLI::App app ("", command_line.program);
+  CLI::App app ("", line.program);
   const std::vector<std::string> arguments (argv + (argc > 0 ? 1 : 0), argv + argc);
-  addOptions (app, command_line);
+  addOptions (app, line);
   if (const std::optional<int> done = parseArguments (app, arguments))
     return done;
-  if (command_line.compute_normals && command_line.meshFormat () == writeStl)
-    command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
-                                        "triangles only, write .ply, .vtk or .obj");
-  if (command_line.options.disc.as_published)
-    takePublished (app, command_line);
-  if (command_line.input.empty () || command_line.output.empty ())
+  if (line.compute_normals && line.meshFormat () == writeStl)
+    line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
+                                "triangles only, write .ply, .vtk or .obj");
+  if (line.options.disc.as_published)
+    takePublished (app, line);
+  if (line.input.empty () || line.output.empty ())
     throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");
-  const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();
-  Topology& topology = command_line.options.topology;
+  const bool needs_disc = !line.loop.empty () || !line.parameterization.empty ();
+  Topology& topology = line.options.topology;
   if (needs_disc && topology == Topology::SURFACE)
     throw UsageError ("--loop and --parameterization are for a disc, not for --topology surface");
   if (needs_disc)
     topology = Topology::DISC;
-  requireOptions (app, command_line.options);
-  command_line.texture_coordinates =
-      command_line.texture_coordinates || !command_line.texture.empty ();
-  checkTextureOptions (command_line);
-  checkMemoryLimit (command_line);
-  checkPaths (command_line);
+  requireOptions (app, line.options);
+  line.texture_coordinates |= !line.texture.empty ();
+  checkTextureOptions (line);
+  checkMemoryLimit (line);
+  checkPaths (line);
   return std::nullopt;
 }
 

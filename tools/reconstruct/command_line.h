@@ -82,6 +82,6 @@ constexpr Choice<Precision> PRECISION_CHOICES[] = {
 /// \throws UsageError also if one file is named twice, WriteError if an output cannot be written,
 /// ReadError if the extension of the input is unknown
 std::optional<int>
-parseCommandLine (int argc, char** argv, CommandLine& command_line);
+parseCommandLine (int argc, char** argv, CommandLine& line);
 
 } // namespace pcl::floater

@@ -120,11 +120,11 @@ completeReport (const CommandLine& line, const std::vector<std::string>& of_inpu
 }
 
 nlohmann::ordered_json
-reportJson (const CommandLine& command_line, const Report& report, const RunFigures& run);
+reportJson (const CommandLine& line, const Report& report, const RunFigures& run);
 
 /// The same as text, with one line for each of its keys.
 std::string
-reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
+reportText (const CommandLine& line, const Report& report, const RunFigures& run);
 
 /// The report as one page of HTML that refers to nothing outside: outcome, figures, histograms,
 /// findings and uncertain decisions with their places, and the mesh, drawn by WebGL. All that

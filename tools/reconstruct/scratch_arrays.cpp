@@ -212,7 +212,7 @@ parseSize (std::string_view word, std::size_t& bytes)
 }
 
 void
-prepareHeap (bool in_huge_pages)
+prepareHeap ([[maybe_unused]] bool in_huge_pages)
 {
 #ifdef __GLIBC__
   constexpr int THRESHOLD = 8 << 20, IN_HUGE_PAGES = 64 << 20;
@@ -230,8 +230,6 @@ prepareHeap (bool in_huge_pages)
     std::free (begin);
   }
   mallopt (M_TOP_PAD, THRESHOLD / 2);
-#else
-  (void)in_huge_pages;
 #endif
 }
 
