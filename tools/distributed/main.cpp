@@ -320,9 +320,8 @@ void
 printSteps (const Job& job, const Store& store)
 {
   const Plan plan = readManifest (store);
-  std::string work; // quoted for a shell
-  for (const char c : job.work.string ())
-    work += c == '\'' ? "'\\''" : std::string (1, c);
+  // Quoted for a shell.
+  const std::string work = boost::replace_all_copy (job.work.string (), "'", "'\\''");
   const std::string command = "pcl_floater_distributed --work '" + work + "' --step ";
   for (const Step& step : STEPS) {
     if (step.isPlan ())

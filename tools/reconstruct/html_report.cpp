@@ -13,6 +13,7 @@
 #include "report/findings.h"
 #include "report_json.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 
@@ -373,10 +374,7 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
                        {"height", histogramJson (drawing.height, 1.0, false)}}},
                      {"mesh", meshJson (drawing, result.triangles.size (), std::move (dots))}};
   // No text can end the element of HTML that holds it.
-  std::string text (HTML_BEFORE_DATA);
-  for (const char c : dump (data))
-    c == '<' ? text += "\\u003c" : text += c;
-  return text + HTML_AFTER_DATA;
+  return HTML_BEFORE_DATA + boost::replace_all_copy (dump (data), "<", "\\u003c") + HTML_AFTER_DATA;
 }
 
 } // namespace pcl::floater
