@@ -5,7 +5,6 @@
 #include "cloud_geometry.h"
 #include "points/neighbors.h"
 #include "points/net.h"
-#include "points/outliers.h"
 #include "stored_cloud.h"
 
 namespace pcl::floater {
@@ -98,14 +97,14 @@ int
 outliersStep (const Job& job, const Store& store, const Plan& plan)
 {
   const StepContext context{store, plan, job.line, job.join_threads};
-  std::vector<Index> gross_outliers, outliers;
+  std::vector<Index> gross_outliers;
   Points points = readPoints (store, plan, gross_outliers);
   CsrLists neighbors = StoredCloud (context, {}).nearestOfAll ();
   chooseNet (points, neighbors, {context.options.neighbors}, context.limits.net, context.run,
              nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
-  if (context.options.remove_outliers)
-    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
+  const std::vector<Index> outliers =
+      outliersOf (points, neighbors, {context.options, context.limits, context.run});
   if (!outliers.empty ())
     removePoints (points, outliers);
   if (!are_stacked.empty () || !outliers.empty ())
