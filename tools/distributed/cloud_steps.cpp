@@ -85,9 +85,6 @@ private:
   LeftOut left_out_ = readLeftOut (context_);
 };
 
-// The manifest, in the folder of the tiles. It is written last.
-constexpr const char* TILES = "tiles.json";
-
 /// The field that has the number of each vertex in the whole mesh. It is a double: PLY has no
 /// 64-bit integers, and a double holds all whole numbers up to 2^53.
 constexpr const char* VERTEX_NUMBER = "vertex_number";
@@ -223,27 +220,6 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
 }
 
 } // namespace
-
-void
-prepareFolders (const Job& job)
-{
-  std::error_code error;
-  if (std::filesystem::create_directories (job.work, error))
-    std::filesystem::permissions (job.work, std::filesystem::perms::owner_all, error);
-  if (error || !std::filesystem::is_directory (job.work))
-    throw WriteError ("cannot make the work folder '" + job.work.string () +
-                      "': " + (error ? error.message () : "there is a file of that name"));
-  requireWritable (job.work / MANIFEST);
-  if (job.writes_tiles && std::filesystem::exists (job.line.output)) {
-    if (std::filesystem::equivalent (job.line.output, job.work))
-      throw UsageError ("the tiles cannot be in the work folder; name another folder");
-    requireWritable (job.line.output / TILES);
-  }
-  else
-    requireWritable (job.line.output);
-  if (!job.line.report.empty ())
-    requireWritable (job.line.report);
-}
 
 int
 joinStep (const Job& job, const Store& store, const Plan& plan)

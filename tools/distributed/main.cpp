@@ -222,6 +222,28 @@ isFinished (const Store& store, const Step& step, std::size_t block, const Plan&
   return true;
 }
 
+// Makes the work folder, and checks that all outputs can be written.
+void
+prepareFolders (const Job& job)
+{
+  std::error_code error;
+  if (std::filesystem::create_directories (job.work, error))
+    std::filesystem::permissions (job.work, std::filesystem::perms::owner_all, error);
+  if (error || !std::filesystem::is_directory (job.work))
+    throw WriteError ("cannot make the work folder '" + job.work.string () +
+                      "': " + (error ? error.message () : "there is a file of that name"));
+  requireWritable (job.work / MANIFEST);
+  if (job.writes_tiles && std::filesystem::exists (job.line.output)) {
+    if (std::filesystem::equivalent (job.line.output, job.work))
+      throw UsageError ("the tiles cannot be in the work folder; name another folder");
+    requireWritable (job.line.output / TILES);
+  }
+  else
+    requireWritable (job.line.output);
+  if (!job.line.report.empty ())
+    requireWritable (job.line.report);
+}
+
 // Makes the plan if that is asked for and there is none. Reads it and compares it with the job, but
 // for a step other than `join` that has all from the manifest.
 int

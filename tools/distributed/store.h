@@ -207,6 +207,7 @@ constexpr const char* POINTS = "points.bin";
 constexpr const char* OUTLIERS = "outliers.bin";
 constexpr const char* POINTS_LEFT = "points_left.bin"; ///< the net without outliers, if not all
 constexpr const char* TRIANGLES = "mesh.bin";
+constexpr const char* TILES = "tiles.json"; ///< the manifest of the tiles, in their folder
 
 /// The file of a step for a block, "stars.7.bin".
 inline std::string
