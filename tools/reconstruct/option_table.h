@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All options of the tool, in the groups of its help.
+// Options of the tools, in the groups of their help.
 #pragma once
 
 #include "command_line.h"
@@ -135,11 +135,6 @@ requireOptions (const CLI::App& app, const Options& options)
                           ? problem.message
                           : name + problem.message.substr (problem.option.size ()));
 }
-
-/// Adds every option of pcl_floater_reconstruct and the two positional arguments to \a app, which
-/// writes to \a line when it parses, and so has to end before it.
-void
-addOptions (CLI::App& app, CommandLine& line);
 
 /// The rows of the table of options that the tool takes, and --use-input-normals.
 void
