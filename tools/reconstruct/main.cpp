@@ -259,10 +259,9 @@ run (CommandLine line)
   OutputFiles files;
   if (report.status == RunStatus::SUCCESS)
     stageOutputs (line, cloud, result, figures, files);
-  const std::string objection = line.strict ? objectionTo (report) : "";
-  figures.is_refused = !objection.empty ();
-  if (figures.is_refused) { // only the report is written
-    files.clear ();
+  if (const std::string objection = objectionTo (report); line.strict && !objection.empty ()) {
+    figures.is_refused = true;
+    files.clear (); // only the report is written
     report.message = objection + ", which --strict does not allow";
   }
   if (!line.report.empty ())
