@@ -102,9 +102,7 @@ takeFiles (const std::vector<std::string>& files, Job& job)
                       MESH_EXTENSIONS + ", or --tiles and a folder");
 }
 
-/// Parses the command line. Prints the help or the version if asked for.
-/// \return the exit code if there is nothing else to do
-/// \throws UsageError
+/// As parseCommandLine ().
 std::optional<int>
 parseJob (const std::vector<std::string>& arguments, Job& job)
 {

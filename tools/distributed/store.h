@@ -91,8 +91,7 @@ struct ArrayEntry
   std::uint64_t count, offset;
 };
 
-/// An array to write: numbers, or structs of numbers without gaps, which must outlive this. It may be
-/// one that lives for the call of put only.
+/// An array to write: numbers, or structs of numbers without gaps, which must outlive this.
 struct NamedArray
 {
   template <typename T>

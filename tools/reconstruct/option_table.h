@@ -18,9 +18,8 @@ namespace pcl::floater {
 std::string
 didYouMean (const std::string& word, const std::vector<std::string>& words);
 
-// Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
-// where it is told, shows the default in the help, and refuses a malformed word by name. Each is in
-// the group that beginGroup () has named last.
+// Options by the kind of their value, in the group that beginGroup () has named last. Each shows the
+// default in the help, and refuses a malformed word by name.
 
 /// The next options are below this heading of the help.
 inline void
@@ -117,8 +116,7 @@ prepareApp (CLI::App& app, const char* description, const char* footer)
                         "print the version and exit");
 }
 
-/// Parses a command line, after breaking the texts of all options into lines. Prints the help or the
-/// version if asked for.
+/// Parses a command line. Prints the help, with texts broken into lines, or the version if asked for.
 /// \return the exit code if there is nothing else to do
 /// \throws UsageError
 std::optional<int>

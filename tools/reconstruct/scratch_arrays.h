@@ -104,12 +104,9 @@ void
 giveFreedBack ();
 
 /// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a
-/// tenth of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS
-/// would start them again if it were asked to use several threads. It is looked up at run time;
-/// with any other BLAS this does nothing.
-///
-/// To be called before any other thread is started, and not where the address space is limited: a
-/// worker that finds no memory never ends.
+/// tenth of a second, on the cores that the reconstruction needs; it uses none of them. It is looked up
+/// at run time. To be called before any other thread is started, and not where the address space is
+/// limited: a worker that finds no memory never ends.
 inline void
 endBlasThreads ()
 {
