@@ -3,7 +3,6 @@
 #include "job.h"
 
 #include "cloud_geometry.h"
-#include "points/neighbors.h"
 #include "points/net.h"
 #include "stored_cloud.h"
 
@@ -11,7 +10,7 @@ namespace pcl::floater {
 namespace {
 // Widths of the halos, see BlockSearch. Nearest neighbours are nearer than one. Stars at boundaries
 // look up to 40 spacings ahead, most others no farther than two widths.
-constexpr double HALO = 1.0, PLANE_HALO = 2.0, STAR_HALO = 4.0;
+constexpr double PLANE_HALO = 2.0, STAR_HALO = 4.0;
 
 // Writes what a block has found. Without arrays: it has no points.
 void
@@ -87,10 +86,7 @@ neighborsStep (const StepContext& context, std::size_t block)
   StoredCloud cloud (context, {});
   if (!cloud.hasPoints (block))
     return put (context, "neighbors", block);
-  BlockSearch search (cloud.cutter (), block, HALO);
-  const CsrLists neighbors =
-      findNearestOfBlock (search, cloud.cutter ().points, context.options.neighbors.k, context.run);
-  put (context, "neighbors", block, {{"ids", neighbors.ids}});
+  put (context, "neighbors", block, {{"ids", cloud.findNearest (block).ids}});
 }
 
 int
@@ -120,14 +116,8 @@ planesStep (const StepContext& context, std::size_t block)
   StoredCloud cloud (context, left_out);
   if (!cloud.hasPoints (block))
     return put (context, "planes", block);
-  CsrLists nearest;
-  if (left_out.isNothing ())
-    nearest = cloud.nearest (cloud.own (block));
-  else {
-    BlockSearch search (cloud.cutter (), block, HALO);
-    nearest = findNearestOfBlock (search, cloud.cutter ().points, context.options.neighbors.k,
-                                  context.run);
-  }
+  const CsrLists nearest =
+      left_out.isNothing () ? cloud.nearest (cloud.own (block)) : cloud.findNearest (block);
   const StarSettings settings = starSettings ({context.options, context.limits, context.run});
   BlockSearch search (cloud.cutter (), block, PLANE_HALO, nearest.ids);
   LocalPlanes planes;

@@ -6,7 +6,7 @@
 #include "core/csr_lists.h"
 #include "core/order_statistics.h"
 #include "job.h"
-#include "points/point_block.h"
+#include "points/neighbors.h"
 
 #include <boost/range/irange.hpp>
 #include <boost/range/iterator_range.hpp>
@@ -177,6 +177,13 @@ public:
         all.offsets.push_back (static_cast<Index> (before) + *offset - offsets.front ());
     });
     return all;
+  }
+
+  /// The nearest neighbours of the points of a block, by a search.
+  CsrLists findNearest (std::size_t block) const
+  {
+    BlockSearch search (cutter_, block);
+    return findNearestOfBlock (search, cutter_.points, context_.options.neighbors.k, context_.run);
   }
 
   /// The neighbours of points without those beside lines.
