@@ -18,8 +18,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE (Plan, id, inputs, arguments, parameters, poi
                                     figures)
 
 namespace {
-using ManifestJson = nlohmann::json;
-
 constexpr const char* FORMAT = "pcl_floater work folder";
 
 std::uint64_t
@@ -44,7 +42,7 @@ describeInputs (const Job& job)
 std::uint64_t
 planId (const std::vector<InputFile>& inputs, const Plan& plan, std::size_t blocks)
 {
-  ManifestJson sums = ManifestJson::array ();
+  nlohmann::json sums = nlohmann::json::array ();
   for (const InputFile& input : inputs)
     sums.push_back ({input.bytes, input.checksum});
   return hash (dump ({WORK_FORMAT, plan.parameters, sums, plan.arguments, blocks}));
@@ -78,14 +76,14 @@ readManifest (const Store& store)
 {
   const WorkFile file = store.open (MANIFEST);
   try {
-    ManifestJson json = ManifestJson::parse (file.text ());
+    nlohmann::json json = nlohmann::json::parse (file.text ());
     if (json.at ("format") != FORMAT)
       file.refuse ("is no manifest of this program; name another work folder");
     if (json.at ("version") != WORK_FORMAT)
       file.refuse ("has the format version " + json.at ("version").dump () + ", and this program " +
                    std::to_string (WORK_FORMAT) +
                    "; use the version that made it, or an empty work folder");
-    const ManifestJson checksum = json.at ("checksum");
+    const nlohmann::json checksum = json.at ("checksum");
     json.erase ("checksum");
     if (checksum == hash (dump (json)))
       return json.get<Plan> ();
@@ -208,7 +206,7 @@ planStep (const Job& job, const Store& store)
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan, job.blocks);
   writePoints (store, POINTS, plan.id, points, report.outliers);
-  ManifestJson json = plan;
+  nlohmann::json json = plan;
   json["format"] = FORMAT;
   json["version"] = WORK_FORMAT;
   json["checksum"] = hash (dump (json));
