@@ -183,9 +183,9 @@ planStep (const Job& job, const Store& store)
   const StepContext context{store, plan, line, job.join_threads};
   Points points;
   Report report;
-  const std::array<double, 3> sensor_origin = input.sensor_origin;
+  plan.sensor_origin = input.sensor_origin;
   Problem problem = takePoints (
-      input, {context.options, context.limits, context.run, sensor_origin}, points, report);
+      input, {context.options, context.limits, context.run, plan.sensor_origin}, points, report);
   if (!problem)
     problem = checkPoints (points);
   if (problem) {
@@ -202,7 +202,6 @@ planStep (const Job& job, const Store& store)
       job.blocks > 0 ? job.blocks : (points.size () + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK;
   plan.selected_points = report.statistics.selected_points;
   plan.scale = points.scale;
-  plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan, job.blocks);
   writePoints (store, POINTS, plan.id, points, report.outliers);
