@@ -12,6 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <sys/resource.h>
+#include <sys/vfs.h>
 
 #include <chrono>
 
@@ -110,7 +111,11 @@ completeReport (const CommandLine& line, const std::vector<std::string>& of_inpu
     report.message = failure;
   if (line.max_memory == 0)
     return;
-  if (liesInMemory (line.scratch))
+  constexpr unsigned long TMPFS = 0x01021994UL, RAMFS = 0x858458f6UL; // kept in memory
+  struct statfs status = {};
+  const bool is_known = ::statfs (line.scratch.c_str (), &status) == 0;
+  const auto type = static_cast<unsigned long> (status.f_type);
+  if (is_known && (type == TMPFS || type == RAMFS))
     report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
                                "' is in memory itself; use --scratch to name one on a disk");
   const std::size_t peak = peakMemory ();
