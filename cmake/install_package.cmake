@@ -59,7 +59,7 @@ install (FILES "${PROJECT_BINARY_DIR}/pcl_floater.pc" DESTINATION "${CMAKE_INSTA
 
 install (FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/pcl_floater"
          COMPONENT development)
-install (FILES "${PROJECT_SOURCE_DIR}/README.md"
+install (FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CITATION.cff"
          DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 # README.md and doc/page.md show these.
 foreach (picture tools/picture/example.png tools/reconstruct/page.png test/benchmark/figures/figure6_mesh_bunny.png
@@ -72,7 +72,6 @@ endforeach ()
 file (GLOB pages CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/doc/*.md")
 install (FILES ${pages} "${PROJECT_SOURCE_DIR}/doc/sample_clouds.sh"
          DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc" COMPONENT documentation)
-install (FILES "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 install (FILES "${PROJECT_SOURCE_DIR}/src/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}/src"
          COMPONENT documentation)
 install (DIRECTORY "${PROJECT_SOURCE_DIR}/test/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}/test"

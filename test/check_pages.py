@@ -76,9 +76,10 @@ def check_quotes(page, quoted):
 
 def check_names():
     """Whatever a user can set, and how a run can end, has its place in the pages."""
-    state, options, report, table = ((ROOT / name).read_text() for name in (
+    state, options, report, *tables = ((ROOT / name).read_text() for name in (
         "include/pcl/surface/floater/reconstruction_state.h", "include/pcl/surface/floater/options.h",
-        "include/pcl/surface/floater/report.h", "tools/reconstruct/option_table.cpp"))
+        "include/pcl/surface/floater/report.h", "tools/reconstruct/option_table.cpp",
+        "tools/reconstruct/command_line.cpp"))
 
     def body(kind, name, text):
         return re.search(kind + " " + name + r"\n\{(.*?)^\};", text, re.MULTILINE | re.DOTALL)[1]
@@ -87,7 +88,7 @@ def check_names():
         return set(re.findall(r"^  ([A-Z_]+)\b", body("enum class", name, report), re.MULTILINE))
     wanted = {
         "doc/options.md":
-            set(re.findall(r'"(?:-\w,)?(--[a-z][a-z-]+)"', table)) - {"--help", "--version"} |
+            set(re.findall(r'"(?:-\w,)?(--[a-z][a-z-]+)"', "".join(tables))) - {"--help", "--version"} |
             set(re.findall(r"\bvoid (set\w+) \(", state)) |
             set(re.findall(r"^  [\w:<> ]+ (\w+)(?: = [^;]*)?;", "".join(
                 body("struct", name, options) for name in ("BoundaryOptions", "DomainOptions", "SolverOptions")),

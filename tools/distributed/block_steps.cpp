@@ -3,16 +3,14 @@
 #include "job.h"
 
 #include "cloud_geometry.h"
-#include "points/neighbors.h"
 #include "points/net.h"
-#include "points/outliers.h"
 #include "stored_cloud.h"
 
 namespace pcl::floater {
 namespace {
 // Widths of the halos, see BlockSearch. Nearest neighbours are nearer than one. Stars at boundaries
 // look up to 40 spacings ahead, most others no farther than two widths.
-constexpr double HALO = 1.0, PLANE_HALO = 2.0, STAR_HALO = 4.0;
+constexpr double PLANE_HALO = 2.0, STAR_HALO = 4.0;
 
 // Writes what a block has found. Without arrays: it has no points.
 void
@@ -46,14 +44,10 @@ toPlaces (const BlockSearch& block, std::vector<Index>& points)
 CsrLists
 toPlaces (const BlockSearch& block, CsrLists lists)
 {
-  CsrLists places;
-  places.offsets.assign (block.points ().size () + 1, 0);
-  for (Index p = block.ownFirst (); p < block.ownLast (); ++p)
-    places.offsets[p + 1] = static_cast<Index> (lists.row (p - block.ownFirst ()).size ());
-  sumRowLengths (places.offsets);
-  places.ids = std::move (lists.ids);
-  toPlaces (block, places.ids);
-  return places;
+  lists.offsets.insert (lists.offsets.begin (), block.ownFirst (), 0);
+  lists.offsets.resize (block.points ().size () + 1, lists.offsets.back ());
+  toPlaces (block, lists.ids);
+  return lists;
 }
 
 /// Values of all points of a block, of those of its own. Others have 0.
@@ -92,24 +86,21 @@ neighborsStep (const StepContext& context, std::size_t block)
   StoredCloud cloud (context, {});
   if (!cloud.hasPoints (block))
     return put (context, "neighbors", block);
-  BlockSearch search (cloud.cutter (), block, HALO);
-  const CsrLists neighbors =
-      findNearestOfBlock (search, cloud.points (), context.options.neighbors.k, context.run);
-  put (context, "neighbors", block, {{"ids", neighbors.ids}});
+  put (context, "neighbors", block, {{"ids", cloud.findNearest (block).ids}});
 }
 
 int
 outliersStep (const Job& job, const Store& store, const Plan& plan)
 {
   const StepContext context{store, plan, job.line, job.join_threads};
-  std::vector<Index> gross_outliers, outliers;
+  std::vector<Index> gross_outliers;
   Points points = readPoints (store, plan, gross_outliers);
   CsrLists neighbors = StoredCloud (context, {}).nearestOfAll ();
   chooseNet (points, neighbors, {context.options.neighbors}, context.limits.net, context.run,
              nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
-  if (context.options.remove_outliers)
-    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
+  const std::vector<Index> outliers =
+      outliersOf (points, neighbors, {context.options, context.limits, context.run});
   if (!outliers.empty ())
     removePoints (points, outliers);
   if (!are_stacked.empty () || !outliers.empty ())
@@ -125,14 +116,8 @@ planesStep (const StepContext& context, std::size_t block)
   StoredCloud cloud (context, left_out);
   if (!cloud.hasPoints (block))
     return put (context, "planes", block);
-  CsrLists nearest;
-  if (left_out.isNothing ())
-    nearest = cloud.nearest (cloud.own (block));
-  else {
-    BlockSearch search (cloud.cutter (), block, HALO);
-    nearest =
-        findNearestOfBlock (search, cloud.points (), context.options.neighbors.k, context.run);
-  }
+  const CsrLists nearest =
+      left_out.isNothing () ? cloud.nearest (cloud.own (block)) : cloud.findNearest (block);
   const StarSettings settings = starSettings ({context.options, context.limits, context.run});
   BlockSearch search (cloud.cutter (), block, PLANE_HALO, nearest.ids);
   LocalPlanes planes;

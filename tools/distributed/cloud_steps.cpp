@@ -85,12 +85,6 @@ private:
   LeftOut left_out_ = readLeftOut (context_);
 };
 
-// The manifest, in the folder of the tiles. It is written last.
-constexpr const char* TILES = "tiles.json";
-
-constexpr const char* TILES_FORMAT = "pcl_floater tiles";
-constexpr int VERSION = 1;
-
 /// The field that has the number of each vertex in the whole mesh. It is a double: PLY has no
 /// 64-bit integers, and a double holds all whole numbers up to 2^53.
 constexpr const char* VERTEX_NUMBER = "vertex_number";
@@ -179,11 +173,10 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
       place_of[vertex] = static_cast<Index> (rows.size ());
       rows.push_back (cloud.row (vertex));
     }
-    Triangles local;
-    for (const Index t : its_triangles.row (tile)) {
-      const auto& [a, b, c] = triangles[t];
-      local.push_back ({place_of[a], place_of[b], place_of[c]});
-    }
+    Triangles local = valuesAt (triangles, its_triangles.row (tile));
+    for (Triangle& triangle : local)
+      for (Index& corner : triangle)
+        corner = place_of[corner];
     Cloud part = copyRows (cloud, rows);
     replaceColumns ({VERTEX_NUMBER}, ScalarType::FLOAT64,
                     std::vector<double> (vertices.begin (), vertices.end ()), part.fields);
@@ -215,8 +208,8 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
   if (cloud.find (VERTEX_NUMBER) != nullptr)
     losses.push_back (std::string ("the field '") + VERTEX_NUMBER +
                       "' of the points was left out: in tiles it has the numbers of the vertices");
-  const Json manifest{{"format", TILES_FORMAT},
-                      {"version", VERSION},
+  const Json manifest{{"format", "pcl_floater tiles"},
+                      {"version", 1},
                       {"points", cloud.size ()},
                       {"triangles", triangles.size ()},
                       {"vertex_number", VERTEX_NUMBER},
@@ -228,32 +221,11 @@ writeTiles (const std::filesystem::path& folder, const Cloud& cloud, const Trian
 
 } // namespace
 
-void
-prepareFolders (const Job& job)
-{
-  std::error_code error;
-  if (std::filesystem::create_directories (job.work, error))
-    std::filesystem::permissions (job.work, std::filesystem::perms::owner_all, error);
-  if (error || !std::filesystem::is_directory (job.work))
-    throw WriteError ("cannot make the work folder '" + job.work.string () +
-                      "': " + (error ? error.message () : "there is a file of that name"));
-  requireWritable (job.work / MANIFEST);
-  if (job.writes_tiles && std::filesystem::exists (job.line.output)) {
-    if (std::filesystem::equivalent (job.line.output, job.work))
-      throw UsageError ("the tiles cannot be in the work folder; name another folder");
-    requireWritable (job.line.output / TILES);
-  }
-  else
-    requireWritable (job.line.output);
-  if (!job.line.report.empty ())
-    requireWritable (job.line.report);
-}
-
 int
 joinStep (const Job& job, const Store& store, const Plan& plan)
 {
   const auto start = std::chrono::steady_clock::now ();
-  CommandLine line = job.line;
+  const CommandLine& line = job.line;
   const StepContext context{store, plan, line, job.join_threads};
   checkMemory (line, plan.cloudSize ());
   StoredStages stages (context);
@@ -272,14 +244,16 @@ joinStep (const Job& job, const Store& store, const Plan& plan)
   figures.reconstruct_seconds = secondsSince (start);
   figures.writes_single = line.precision != Precision::DOUBLE;
   completeReport (line, plan.warnings, report);
-  line.input = job.inputs.front ();
   writeFile (store.path (REPORT), reportText (line, report, figures), true);
   printOutcome (line, report, figures);
   if (report.status != RunStatus::SUCCESS)
     return exitCode (report, figures);
   store.put (TRIANGLES, {{"triangles", result.triangles}}, plan.id);
   if (job.frees_disk)
-    forBlockFiles (plan, [&store] (const std::string& name) { store.remove (name); });
+    forBlockFiles (plan, [&store] (const std::string& name) {
+      std::error_code error; // a file that stays costs room only
+      std::filesystem::remove (store.path (name), error);
+    });
   return EXIT_OK;
 }
 

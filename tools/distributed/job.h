@@ -76,11 +76,6 @@ inline constexpr std::array<Step, 7> STEPS{{{"plan", nullptr, nullptr, MANIFEST}
                                             {"join", nullptr, joinStep, TRIANGLES},
                                             {"write", nullptr, writeStep, nullptr}}};
 
-/// Makes the work folder, and checks that all outputs can be written.
-/// \throws WriteError
-void
-prepareFolders (const Job& job);
-
 /// Reads the cloud, sorts its points along the curve and writes them and the manifest.
 /// \return EXIT_OK, or the exit code of what is wrong with the cloud, which has been printed
 int

@@ -102,9 +102,7 @@ takeFiles (const std::vector<std::string>& files, Job& job)
                       MESH_EXTENSIONS + ", or --tiles and a folder");
 }
 
-/// Parses the command line. Prints the help or the version if asked for.
-/// \return the exit code if there is nothing else to do
-/// \throws UsageError
+/// As parseCommandLine ().
 std::optional<int>
 parseJob (const std::vector<std::string>& arguments, Job& job)
 {
@@ -222,6 +220,28 @@ isFinished (const Store& store, const Step& step, std::size_t block, const Plan&
   return true;
 }
 
+// Makes the work folder, and checks that all outputs can be written.
+void
+prepareFolders (const Job& job)
+{
+  std::error_code error;
+  if (std::filesystem::create_directories (job.work, error))
+    std::filesystem::permissions (job.work, std::filesystem::perms::owner_all, error);
+  if (error || !std::filesystem::is_directory (job.work))
+    throw WriteError ("cannot make the work folder '" + job.work.string () +
+                      "': " + (error ? error.message () : "there is a file of that name"));
+  requireWritable (job.work / MANIFEST);
+  if (job.writes_tiles && std::filesystem::exists (job.line.output)) {
+    if (std::filesystem::equivalent (job.line.output, job.work))
+      throw UsageError ("the tiles cannot be in the work folder; name another folder");
+    requireWritable (job.line.output / TILES);
+  }
+  else
+    requireWritable (job.line.output);
+  if (!job.line.report.empty ())
+    requireWritable (job.line.report);
+}
+
 // Makes the plan if that is asked for and there is none. Reads it and compares it with the job, but
 // for a step other than `join` that has all from the manifest.
 int
@@ -320,9 +340,8 @@ void
 printSteps (const Job& job, const Store& store)
 {
   const Plan plan = readManifest (store);
-  std::string work; // quoted for a shell
-  for (const char c : job.work.string ())
-    work += c == '\'' ? "'\\''" : std::string (1, c);
+  // Quoted for a shell.
+  const std::string work = boost::replace_all_copy (job.work.string (), "'", "'\\''");
   const std::string command = "pcl_floater_distributed --work '" + work + "' --step ";
   for (const Step& step : STEPS) {
     if (step.isPlan ())
@@ -339,7 +358,7 @@ printSteps (const Job& job, const Store& store)
 int
 run (Job job)
 {
-  const Store store (job.work);
+  const Store store{job.work};
   if ((job.step != nullptr || job.prints_steps) && job.inputs.empty ()) {
     // The command line that made the plan; what belongs to this step comes from this one.
     Job planned;
@@ -350,7 +369,6 @@ run (Job job)
     planned.line.quiet = job.line.quiet;
     job.line = planned.line;
     job.inputs = planned.inputs;
-    job.arguments = planned.arguments;
     job.blocks = planned.blocks;
     job.writes_tiles = planned.writes_tiles;
     job.is_from_manifest = true;

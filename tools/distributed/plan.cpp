@@ -18,8 +18,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE (Plan, id, inputs, arguments, parameters, poi
                                     figures)
 
 namespace {
-using ManifestJson = nlohmann::json;
-
 constexpr const char* FORMAT = "pcl_floater work folder";
 
 std::uint64_t
@@ -42,13 +40,12 @@ describeInputs (const Job& job)
 
 // Identifies a plan: the same for the same files, parameters and arguments of the one that made it.
 std::uint64_t
-planId (const std::vector<InputFile>& inputs, const std::string& parameters, std::size_t blocks,
-        const std::vector<std::string>& arguments)
+planId (const std::vector<InputFile>& inputs, const Plan& plan, std::size_t blocks)
 {
-  ManifestJson sums = ManifestJson::array ();
+  nlohmann::json sums = nlohmann::json::array ();
   for (const InputFile& input : inputs)
     sums.push_back ({input.bytes, input.checksum});
-  return hash (dump ({WORK_FORMAT, parameters, sums, arguments, blocks}));
+  return hash (dump ({WORK_FORMAT, plan.parameters, sums, plan.arguments, blocks}));
 }
 
 // Bytes of each point that have to stay in memory for `plan`. Measured with 10 and 30 million
@@ -79,14 +76,14 @@ readManifest (const Store& store)
 {
   const WorkFile file = store.open (MANIFEST);
   try {
-    ManifestJson json = ManifestJson::parse (file.text ());
+    nlohmann::json json = nlohmann::json::parse (file.text ());
     if (json.at ("format") != FORMAT)
       file.refuse ("is no manifest of this program; name another work folder");
     if (json.at ("version") != WORK_FORMAT)
       file.refuse ("has the format version " + json.at ("version").dump () + ", and this program " +
                    std::to_string (WORK_FORMAT) +
                    "; use the version that made it, or an empty work folder");
-    const ManifestJson checksum = json.at ("checksum");
+    const nlohmann::json checksum = json.at ("checksum");
     json.erase ("checksum");
     if (checksum == hash (dump (json)))
       return json.get<Plan> ();
@@ -101,14 +98,21 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
             std::vector<std::size_t>& firsts)
 {
   std::vector<Cloud> clouds;
+  Cloud merged;
   firsts = {0};
   for (const std::filesystem::path& file : files) {
-    clouds.push_back (readNamed (file, [&] { return readCloud (file, options); }));
-    firsts.push_back (firsts.back () + clouds.back ().rows);
+    const Cloud& cloud =
+        clouds.emplace_back (readNamed (file, [&] { return readCloud (file, options); }));
+    firsts.push_back (firsts.back () + cloud.rows);
+    const std::string named = "'" + file.string () + "': ";
+    for (const std::string& warning : cloud.warnings)
+      merged.warnings.push_back (named + warning);
+    for (const std::string& note : cloud.notes)
+      merged.notes.push_back (named + note);
+    merged.single_precision = merged.single_precision && cloud.single_precision;
   }
   if (clouds.size () == 1)
     return std::move (clouds.front ());
-  Cloud merged;
   merged.rows = firsts.back ();
   if (merged.rows > static_cast<std::size_t> (std::numeric_limits<std::int32_t>::max ()))
     throw ReadError ("the files have more points together than a mesh file can number "
@@ -125,24 +129,12 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
       merged.warnings.push_back ("the field '" + field.name +
                                  "' was left out: not all files have it with the same type");
   char* to = allocateRows (allFields (merged), merged.rows).get (); // which the fields keep
-  std::vector<std::string> warnings;                                // before those of the fields
-  for (std::size_t c = 0; c < clouds.size (); ++c) {
-    const Cloud& cloud = clouds[c];
-    const std::string named = "'" + files[c].string () + "': ";
-    for (const std::string& warning : cloud.warnings)
-      warnings.push_back (named + warning);
-    for (const std::string& note : cloud.notes)
-      merged.notes.push_back (named + note);
-    merged.single_precision = merged.single_precision && cloud.single_precision;
-    if (!cloud.left_out.empty ()) {
-      merged.left_out.resize (merged.rows, false);
-      std::copy (cloud.left_out.begin (), cloud.left_out.end (),
-                 merged.left_out.begin () + static_cast<std::ptrdiff_t> (firsts[c]));
-    }
+  for (const Cloud& cloud : clouds) {
     std::vector<const Field*> fields;
     for (const Field& field : merged.fields)
       fields.push_back (cloud.find (field.name));
     for (std::size_t row = 0; row < cloud.rows; ++row) {
+      merged.left_out.push_back (cloud.isLeftOut (row));
       for (const Field& field : cloud.coordinates) {
         const double coordinate = field.scaled (row); // as it is meant and not as it is in the file
         to = std::copy_n (reinterpret_cast<const char*> (&coordinate), sizeof coordinate, to);
@@ -153,7 +145,6 @@ readClouds (const std::vector<std::filesystem::path>& files, const ReadOptions& 
         });
     }
   }
-  merged.warnings.insert (merged.warnings.begin (), warnings.begin (), warnings.end ());
   return merged;
 }
 
@@ -161,13 +152,12 @@ void
 requirePlan (const Job& job, const Store& store, const Plan& plan)
 {
   const std::vector<InputFile> inputs = describeInputs (job);
-  if (plan.parameters != parametersText (job))
-    throw WorkError ("the options are not those of '" + store.path (MANIFEST).string () +
-                     "'; give the same, or name another work folder");
-  if (planId (inputs, plan.parameters, job.blocks, plan.arguments) != plan.id)
-    throw WorkError ("the input files or the number of blocks are not those of '" +
-                     store.path (MANIFEST).string () +
-                     "'; give the same, or name another work folder");
+  const bool are_options = plan.parameters != parametersText (job);
+  if (are_options || planId (inputs, plan, job.blocks) != plan.id)
+    throw WorkError (
+        std::string (are_options ? "the options" : "the input files or the number of blocks") +
+        " are not those of '" + store.path (MANIFEST).string () +
+        "'; give the same, or name another work folder");
 }
 
 int
@@ -190,13 +180,12 @@ planStep (const Job& job, const Store& store)
   plan.figures.vertices = static_cast<std::size_t> (
       std::count_if (input.positions.begin (), input.positions.end (),
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
-  const RunContext run (job.join_threads);
-  const Options options = effectiveOptions (line.options);
-  const Limits limits = effectiveLimits ({}, line.options);
+  const StepContext context{store, plan, line, job.join_threads};
   Points points;
   Report report;
-  const std::array<double, 3> sensor_origin = input.sensor_origin;
-  Problem problem = takePoints (input, {options, limits, run, sensor_origin}, points, report);
+  plan.sensor_origin = input.sensor_origin;
+  Problem problem = takePoints (
+      input, {context.options, context.limits, context.run, plan.sensor_origin}, points, report);
   if (!problem)
     problem = checkPoints (points);
   if (problem) {
@@ -213,11 +202,10 @@ planStep (const Job& job, const Store& store)
       job.blocks > 0 ? job.blocks : (points.size () + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK;
   plan.selected_points = report.statistics.selected_points;
   plan.scale = points.scale;
-  plan.sensor_origin = sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
-  plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
+  plan.id = planId (plan.inputs, plan, job.blocks);
   writePoints (store, POINTS, plan.id, points, report.outliers);
-  ManifestJson json = plan;
+  nlohmann::json json = plan;
   json["format"] = FORMAT;
   json["version"] = WORK_FORMAT;
   json["checksum"] = hash (dump (json));

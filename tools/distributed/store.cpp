@@ -26,18 +26,11 @@ struct Head
   std::uint64_t checksum; // of all before, and of the table
 };
 
-// \param before checksum of the bytes before these
-std::uint64_t
-checksumOf (const void* bytes, std::size_t count, std::uint64_t before = 0)
-{
-  return XXH3_64bits_withSeed (bytes, count, before);
-}
-
 std::uint64_t
 checksumOf (const Head& head, const std::vector<ArrayEntry>& table)
 {
-  return checksumOf (table.data (), table.size () * sizeof (ArrayEntry),
-                     checksumOf (&head, offsetof (Head, checksum)));
+  return XXH3_64bits_withSeed (table.data (), table.size () * sizeof (ArrayEntry),
+                               XXH3_64bits (&head, offsetof (Head, checksum)));
 }
 
 // Bytes of an array with the checksums of its pieces.
@@ -71,7 +64,7 @@ Store::put (const std::string& file, const NamedArrays& arrays, std::uint64_t pl
     const std::uint64_t bytes = array.element * array.count;
     for (std::uint64_t at = 0, count = 0; at < bytes; at += count) {
       count = std::min (PIECE, bytes - at);
-      const std::uint64_t checksum = checksumOf (array.first + at, count);
+      const std::uint64_t checksum = XXH3_64bits (array.first + at, count);
       write (array.first + at, count);
       write (&checksum, sizeof (checksum));
     }
@@ -151,29 +144,23 @@ ArrayFile::ArrayFile (WorkFile file, std::uint64_t plan) : file_ (std::move (fil
 }
 
 void
-ArrayFile::readPiece (const ArrayEntry& array, std::uint64_t begin)
-{
-  const std::uint64_t count = std::min (PIECE, array.element * array.count - begin);
-  std::uint64_t checksum = 0;
-  piece_of_ = nullptr; // as long as nothing is known of its bytes
-  piece_.resize (count + sizeof (checksum));
-  file_.read (array.offset + withChecksums (begin), piece_.size (), piece_.data ());
-  std::memcpy (&checksum, piece_.data () + count, sizeof (checksum));
-  if (checksumOf (piece_.data (), count) != checksum)
-    file_.refuse ("is damaged; delete it and run again");
-  piece_.resize (count);
-  piece_of_ = &array;
-  piece_begin_ = begin;
-}
-
-void
 ArrayFile::readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes)
 {
   const std::uint64_t end = last * array.element;
   for (std::uint64_t at = first * array.element, count = 0; at < end; at += count) {
     const std::uint64_t begin = at / PIECE * PIECE;
-    if (piece_of_ != &array || piece_begin_ != begin)
-      readPiece (array, begin);
+    if (piece_of_ != &array || piece_begin_ != begin) {
+      const std::uint64_t length = std::min (PIECE, array.element * array.count - begin);
+      piece_of_ = nullptr; // as long as nothing is known of its bytes
+      piece_.resize (length + sizeof (std::uint64_t));
+      file_.read (array.offset + withChecksums (begin), piece_.size (), piece_.data ());
+      if (readNumber<std::uint64_t> (piece_.data () + length, ByteOrder::native) !=
+          XXH3_64bits (piece_.data (), length))
+        file_.refuse ("is damaged; delete it and run again");
+      piece_.resize (length);
+      piece_of_ = &array;
+      piece_begin_ = begin;
+    }
     count = std::min<std::uint64_t> (end, begin + piece_.size ()) - at;
     if (bytes != nullptr)
       bytes = std::copy_n (piece_.data () + (at - begin), count, bytes);

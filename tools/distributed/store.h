@@ -91,8 +91,7 @@ struct ArrayEntry
   std::uint64_t count, offset;
 };
 
-/// An array to write: numbers, or structs of numbers without gaps, which must outlive this. It may be
-/// one that lives for the call of put only.
+/// An array to write: numbers, or structs of numbers without gaps, which must outlive this.
 struct NamedArray
 {
   template <typename T>
@@ -174,7 +173,6 @@ private:
         return known;
     file_.refuse ("has no array '" + array + "'; delete it and run again");
   }
-  void readPiece (const ArrayEntry& array, std::uint64_t begin);
   /// \param bytes nullptr: the values are only compared with their checksums
   void readBytes (const ArrayEntry& array, std::size_t first, std::size_t last, char* bytes);
 
@@ -186,12 +184,11 @@ private:
 };
 
 /// The work folder. Its files are visible when they are complete and on the disk.
-class Store
+struct Store
 {
-public:
-  explicit Store (std::filesystem::path folder) : folder_ (std::move (folder)) {}
+  std::filesystem::path folder;
 
-  std::filesystem::path path (const std::string& name) const { return folder_ / name; }
+  std::filesystem::path path (const std::string& name) const { return folder / name; }
   bool has (const std::string& name) const { return std::filesystem::exists (path (name)); }
   WorkFile open (const std::string& name) const { return WorkFile (path (name)); }
   ArrayFile arrays (const std::string& name, const Plan& plan) const
@@ -202,16 +199,6 @@ public:
   /// \param plan of which the arrays are a part
   /// \throws WriteError
   void put (const std::string& file, const NamedArrays& arrays, std::uint64_t plan) const;
-
-  /// Removes a file, if it is there. Others that are open go on to read it.
-  void remove (const std::string& name) const
-  {
-    std::error_code error; // a file that stays costs room only
-    std::filesystem::remove (path (name), error);
-  }
-
-private:
-  std::filesystem::path folder_;
 };
 
 constexpr const char* MANIFEST = "manifest.json";
@@ -219,6 +206,7 @@ constexpr const char* POINTS = "points.bin";
 constexpr const char* OUTLIERS = "outliers.bin";
 constexpr const char* POINTS_LEFT = "points_left.bin"; ///< the net without outliers, if not all
 constexpr const char* TRIANGLES = "mesh.bin";
+constexpr const char* TILES = "tiles.json"; ///< the manifest of the tiles, in their folder
 
 /// The file of a step for a block, "stars.7.bin".
 inline std::string

@@ -6,21 +6,15 @@
 #include "core/csr_lists.h"
 #include "core/order_statistics.h"
 #include "job.h"
-#include "points/point_block.h"
+#include "points/neighbors.h"
+
+#include <boost/range/irange.hpp>
+#include <boost/range/iterator_range.hpp>
 
 #include <map>
-#include <numeric>
 
 namespace pcl::floater {
 using Box = BlockCutter::Box;
-
-inline std::vector<Index>
-pointsFrom (Index first, Index last)
-{
-  std::vector<Index> points (last - first);
-  std::iota (points.begin (), points.end (), first);
-  return points;
-}
 
 /// What the second step has chosen.
 struct LeftOut
@@ -97,8 +91,7 @@ public:
   StoredCloud (const StepContext& context, const LeftOut& left_out)
       : context_ (context), neighbors_step_ (left_out.isNothing () ? "neighbors" : "planes"),
         file_ (context.store.arrays (left_out.isNothing () ? POINTS : POINTS_LEFT, context.plan)),
-        points_ (file_.count ("positions")),
-        cutter_{points_, file_.read<Box> ("buckets"), context.plan.blocks,
+        cutter_{file_.count ("positions"), file_.read<Box> ("buckets"), context.plan.blocks,
                 [this] (Index first, Index last, std::vector<Eigen::Vector3d>& positions) {
                   file_.append ("positions", first, last, positions);
                 }}
@@ -106,17 +99,16 @@ public:
   }
 
   const BlockCutter& cutter () const { return cutter_; }
-  std::size_t points () const { return points_; }
-  Index first (std::size_t block) const
+  bool hasPoints (std::size_t block) const { return cutter_.first (block) < cutter_.last (block); }
+  std::vector<Index> all () const
   {
-    return BlockCutter::firstOf (block, context_.plan.blocks, points_);
+    return boost::copy_range<std::vector<Index>> (
+        boost::irange (Index{0}, static_cast<Index> (cutter_.points)));
   }
-  Index last (std::size_t block) const { return first (block + 1); }
-  bool hasPoints (std::size_t block) const { return first (block) < last (block); }
-  std::vector<Index> all () const { return pointsFrom (0, static_cast<Index> (points_)); }
   std::vector<Index> own (std::size_t block) const
   {
-    return pointsFrom (first (block), last (block));
+    return boost::copy_range<std::vector<Index>> (
+        boost::irange (cutter_.first (block), cutter_.last (block)));
   }
 
   /// Values of some points that are stored with these; empty if there are none of any.
@@ -126,7 +118,7 @@ public:
     std::vector<T> values;
     if (file_.count (array) > 0)
       forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
-        file_.append (array, first (block) + begin, first (block) + end, values);
+        file_.append (array, cutter_.first (block) + begin, cutter_.first (block) + end, values);
       });
     return values;
   }
@@ -153,7 +145,7 @@ public:
       const std::size_t before = values.size ();
       slice (step, block).append (array, begin * width, end * width, values);
       if constexpr (std::is_same_v<T, Index>)
-        slice (step, block).requireBelow (values, points_, before);
+        slice (step, block).requireBelow (values, cutter_.points, before);
     });
     return values;
   }
@@ -168,7 +160,7 @@ public:
     all.offsets.push_back (0);
     std::size_t entries = 0; // of whole blocks, which are most if all points are asked for
     forEachRun (points, [&] (std::size_t block, Index begin, Index end) {
-      if (end - begin == last (block) - first (block))
+      if (end - begin == cutter_.last (block) - cutter_.first (block))
         entries += slice (step, block).count (array);
     });
     all.ids.reserve (entries);
@@ -180,18 +172,25 @@ public:
       const std::size_t before = all.ids.size ();
       requireListed (before + (offsets.back () - offsets.front ()));
       its.append (array, offsets.front (), offsets.back (), all.ids);
-      its.requireBelow (all.ids, points_, before);
+      its.requireBelow (all.ids, cutter_.points, before);
       for (auto offset = offsets.begin () + 1; offset != offsets.end (); ++offset)
         all.offsets.push_back (static_cast<Index> (before) + *offset - offsets.front ());
     });
     return all;
   }
 
+  /// The nearest neighbours of the points of a block, by a search.
+  CsrLists findNearest (std::size_t block) const
+  {
+    BlockSearch search (cutter_, block);
+    return findNearestOfBlock (search, cutter_.points, context_.options.neighbors.k, context_.run);
+  }
+
   /// The neighbours of points without those beside lines.
   CsrLists nearest (const std::vector<Index>& points)
   {
     const std::size_t width = std::min<std::size_t> (
-        static_cast<std::size_t> (context_.options.neighbors.k), points_ - 1);
+        static_cast<std::size_t> (context_.options.neighbors.k), cutter_.points - 1);
     requireListed (points.size () * width);
     CsrLists lists;
     lists.ids = gather<Index> (neighbors_step_, "ids", points, width);
@@ -211,9 +210,9 @@ private:
   {
     std::size_t block = 0;
     for (std::size_t begin = 0, end = 0; begin < points.size (); begin = end) {
-      while (points[begin] >= last (block))
+      while (points[begin] >= cutter_.last (block))
         ++block;
-      const Index from = first (block), to = last (block);
+      const Index from = cutter_.first (block), to = cutter_.last (block);
       for (end = begin + 1;
            end < points.size () && points[end] < to && points[end] == points[end - 1] + 1;)
         ++end;
@@ -224,7 +223,6 @@ private:
   const StepContext& context_;
   const char* neighbors_step_; // that has found the neighbours of these points
   ArrayFile file_;
-  std::size_t points_;
   BlockCutter cutter_;
   std::map<std::string, ArrayFile> slices_;
 };

@@ -47,10 +47,8 @@ watch (const py::object& progress, AnyOptions& options, const Work& work)
     }
     return raised != nullptr;
   };
-  if constexpr (std::is_same_v<AnyOptions, Options>) {
-    stage_now = "";
+  if constexpr (std::is_same_v<AnyOptions, Options>) // which tells the stage before all else
     options.stage_callback = [&] (Stage stage) { stage_now = stageName (stage); };
-  }
   if (!progress.is_none ())
     options.progress_callback = [&] (double fraction) {
       if (raised)

@@ -10,93 +10,94 @@
 
 namespace pcl::floater {
 namespace {
-using Words = std::vector<std::string>;
+const char* const DESCRIPTION =
+    R"(Reconstructs a surface from unorganized points. The vertices of the mesh are the points of
+the cloud, in the same order and with all their fields. The surface may be open or closed,
+with holes, handles or several components. It is put together from the triangles on which the
+Delaunay stars of neighbouring points agree. A disc can also be laid out in the plane, by
+Floater's meshless parameterization. The defaults need no tuning.
+)";
 
-std::string
-plain (const std::string& word)
-{
-  std::string text = word.substr (std::min (word.find_first_not_of ('-'), word.size ()));
-  std::transform (text.begin (), text.end (), text.begin (), lowerCase);
-  return text;
-}
+const char* const FOOTER =
+    R"(Examples:
+  pcl_floater_reconstruct scan.pcd scan.vtk
+  pcl_floater_reconstruct --report scan.json --parameterization flat.ply scan.ply mesh.ply
+  pcl_floater_reconstruct --holes close-all --strict statue.pcd statue.stl
+  pcl_floater_reconstruct --method tw385 scan.pcd paper.ply
 
-/// Letters of the longer word that are left when equal beginnings and ends are taken off both: one
-/// if a letter was inserted, dropped or replaced, two if neighbours were swapped.
-std::size_t
-difference (std::string_view a, std::string_view b)
-{
-  const auto common = [] (auto first, auto last, auto other, auto other_last) {
-    return static_cast<std::size_t> (std::mismatch (first, last, other, other_last).first - first);
-  };
-  const std::size_t begin = common (a.begin (), a.end (), b.begin (), b.end ());
-  a.remove_prefix (begin);
-  b.remove_prefix (begin);
-  return std::max (a.size (), b.size ()) - common (a.rbegin (), a.rend (), b.rbegin (), b.rend ());
-}
+Notes:
+  With --shift, coordinates in the outputs and in messages are those after the origin was
+  subtracted. The report has it, and all formats but .stl have it in a comment. Coordinates in text
+  files are then read with all their digits, also where the file says float.
+  Of a mesh, only the points are read. pcl_viewer opens .vtk. With - for OUTPUT, the summary goes to
+  the standard error stream, and the mesh comes when it is complete.
+  Points with a NaN or infinite coordinate, pixels without a return, cells without data, and what an
+  airborne scan marks as withheld or noise are left out of the output, so that the vertices after
+  them move up. All other points are vertices of the output, also those that are in no triangle:
+  outliers, repeated points, and points that could not be connected. The report lists them all.
+  With --uv, points on seams are several vertices in .ply and .vtk: the others follow after all
+  points. An .obj has a file of materials beside it, with its name and .mtl.
+  An output file appears when it is complete, and replaces an existing one. After a failure there is
+  no new mesh, and existing files are unchanged.
 
-std::string
-usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
-{
-  const std::string message = error.what ();
-  const auto kind = static_cast<CLI::ExitCodes> (error.get_exit_code ());
-  // A mistyped option may leave its value where INPUT should be: so it is told first.
-  for (const std::string& word : app.remaining ())
-    if (word.size () > 1 && word.front () == '-' && word != "--") {
-      const std::string unknown = word.substr (0, word.find ('='));
-      Words names;
-      for (const CLI::Option* const option : app.get_options ())
-        if (!option->get_lnames ().empty ())
-          names.push_back (option->get_name ());
-      return "there is no option " + unknown + didYouMean (unknown, names);
-    }
-  if (kind == CLI::ExitCodes::ExtrasError)
-    return "'" + app.remaining ().front () +
-           "' is one file too many: there are one INPUT and one OUTPUT";
-  if (kind == CLI::ExitCodes::RequiredError)
-    return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
-  const bool is_mismatch = kind == CLI::ExitCodes::ArgumentMismatch;
-  if (is_mismatch ||
-      kind == CLI::ExitCodes::ConversionError) // of which the parser converts flags only
-    for (const std::string& argument : arguments) {
-      const std::size_t equals = std::min (argument.find ('='), argument.size ());
-      const std::string name = argument.substr (0, equals);
-      const CLI::Option* const option = app.get_option_no_throw (name);
-      if (option != nullptr && option->get_items_expected () == 0 && equals < argument.size ())
-        return name + " takes no value, but has '" + argument.substr (equals + 1) + "'";
-    }
-  const CLI::Option* const option =
-      app.get_option_no_throw (message.substr (0, message.find (':')));
-  if (!is_mismatch || option == nullptr)
-    return message;
-  if (option->count () > 1)
-    return option->get_name () + " is given " + std::to_string (option->count ()) +
-           " times; give it once";
-  const std::string& text = option->get_option_text ();
-  return option->get_name () + " needs a value, " + text.substr (0, text.find (" ("));
-}
+Exit codes:
+  0  success
+  1  usage: an option is unknown, malformed, out of its range, or not for this input
+  2  the input cannot be read: missing, truncated, damaged, without x y z
+  3  the cloud cannot be reconstructed; the message and the report name the status
+  4  an output cannot be written, or nothing can be printed; no file is changed
+  5  out of memory, or an internal error
+  6  with --strict: the mesh is poor, or points are in no triangle; the report
+     is written, but no mesh
+)";
 
-/// Breaks the texts of all options into lines.
+/// Adds all options and the two positional arguments to \a app, which writes to \a line when it parses.
 void
-wrapTexts (CLI::App& app)
+addOptions (CLI::App& app, CommandLine& line)
 {
-  constexpr std::size_t COLUMNS = 55;
-  for (CLI::Option* const option : app.get_options ()) {
-    std::string text = option->get_description ();
-    std::size_t begin = 0; // of the line
-    for (std::size_t i = 0, space = 0; i < text.size (); ++i) {
-      if (text[i] == '\n')
-        begin = i + 1;
-      else if (text[i] == ' ')
-        space = i;
-      // The words of a choice stay on one line, behind a colon.
-      const bool is_choice = begin >= 2 && text[begin - 2] == ':';
-      if (i - begin >= COLUMNS && space > begin && !is_choice) {
-        text[space] = '\n';
-        begin = space + 1;
-      }
-    }
-    option->description (text);
-  }
+  prepareApp (app, DESCRIPTION, FOOTER);
+  addTableOptions (app, line, [] (const OptionRow&) { return true; });
+  addLimitAndCoordinates (app, line);
+  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line");
+  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json");
+  app.add_flag ("-v,--verbose", line.verbose,
+                "print all warnings, and the decisions that are not sure")
+      ->excludes ("--quiet");
+  app.add_flag ("--strict", line.strict,
+                "write no mesh if it is poor, or if points are in no triangle");
+  beginGroup (app, option_group::BOUNDARY);
+  addPath (app, "--loop", line.loop,
+           "read the boundary loop from this text file: indices of points, from 0, in order; makes "
+           "a disc");
+  beginGroup (app, "Files");
+  addPath (app, "INPUT", line.input,
+           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", " ")
+      ->required ();
+  addPath (app, "OUTPUT", line.output,
+           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", " ")
+      ->required ();
+  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
+             "format of INPUT; auto: that of its extension; xyz: text with a point in each line");
+  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
+             "format of OUTPUT; auto: that of its extension");
+  addOutputs (app, line);
+  addPath (app, "--html", line.html,
+           "write the report as a page for a browser: figures, findings and the mesh, which turns");
+  addNumber (app, "--page-triangles", line.shown_triangles,
+             "most triangles that the page shows; in larger meshes, vertices are joined");
+  addPath (app, "--parameterization", line.parameterization,
+           "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc");
+  app.add_flag (
+      "--uv", line.texture_coordinates,
+      "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk");
+  addPath (app, "--texture", line.texture,
+           "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
+           "its .mtl");
+  app.add_option ("--texture-size", line.texture_size,
+                  "side of the texture in pixels, 16 to 16384; by default a power of two, two "
+                  "pixels for an edge")
+      ->option_text ("N")
+      ->check (CLI::Range (16, 16384));
 }
 
 void
@@ -138,19 +139,21 @@ checkMemoryLimit (CommandLine& line)
     line.scratch = line.output.has_parent_path () ? line.output.parent_path () : ".";
 }
 
-// Warns of options that were given, and that the method of TW 385 sets otherwise.
+// Takes the options of TW 385. Warns of those that were given, and that it sets otherwise.
 void
-warnOfUnpublished (const CLI::App& app, const Options& given, const Options& effective,
-                   std::vector<std::string>& warnings)
+takePublished (const CLI::App& app, CommandLine& line)
 {
-  Words names;
-  const OptionValues before (given), after (effective);
-  for (std::size_t i = 0; i < before.rows.size (); ++i)
-    if (const std::string name = toolName (before.rows[i].name);
-        before.values[i] != after.values[i] && app.count (name) > 0)
+  choosePublished (line.options.disc, app.count ("--boundary") > 0, app.count ("--ordering") > 0);
+  const OptionValues given (line.options);
+  line.options = effectiveOptions (line.options); // the report lists these
+  const OptionValues effective (line.options);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < given.rows.size (); ++i)
+    if (const std::string name = toolName (given.rows[i].name);
+        given.values[i] != effective.values[i] && app.count (name) > 0)
       names.push_back (name);
   if (!names.empty ())
-    warnings.push_back (
+    line.warnings.push_back (
         (names.size () == 1 ? "an option has no effect: " : "options have no effect: ") +
         boost::join (names, ", ") + "; --method tw385 is that report and nothing else");
 }
@@ -166,6 +169,57 @@ areSame (const std::filesystem::path& a, const std::filesystem::path& b)
     return std::filesystem::weakly_canonical (std::filesystem::absolute (path), error);
   };
   return full (a) == full (b);
+}
+
+void
+checkPaths (const CommandLine& line)
+{
+  if (line.input_format == nullptr && isStandardStream (line.input))
+    throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
+                      "--input-format pcd");
+  if (line.input_format == nullptr)
+    readNamed (line.input, [&line] {
+      return requireCloudFormat (line.input, ", or give its format by --input-format");
+    });
+  // The first two are inputs.
+  const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
+      {{"INPUT", line.input},
+       {"--loop", line.loop},
+       {"OUTPUT", line.output},
+       {"--parameterization", line.parameterization},
+       {"--report", line.report},
+       {"--html", line.html},
+       {"the file of materials", line.materials ()},
+       {"--texture", line.texture}}};
+  for (const auto& [name, path] : all)
+    if (name.front () == '-' && isStandardStream (path))
+      throw UsageError (name + " takes the name of a file, not -");
+  for (const auto& [name, path] : {all[6], all[7]})
+    if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
+      throw UsageError ("the name of the file of materials or of the texture has a line break in "
+                        "it, which files in OBJ cannot hold; choose another one");
+  for (std::size_t i = 2; i < all.size (); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto& [name, path] = all[i];
+      const auto& [other_name, other] = all[j];
+      if (!path.empty () && !other.empty () && !isStandardStream (path) &&
+          !isStandardStream (other) && areSame (path, other))
+        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
+                          "'; give different ones");
+    }
+  if (line.meshFormat () == nullptr && isStandardStream (line.output))
+    throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
+                      "--output-format ply");
+  if (line.meshFormat () == nullptr)
+    throw WriteError ("cannot write '" + line.output.string () +
+                      "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
+                      ", or give its format by --output-format");
+  if (!line.parameterization.empty () && meshFormatOf (line.parameterization) == nullptr)
+    throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
+                      unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
+  for (std::size_t i = 2; i < all.size (); ++i)
+    if (!all[i].second.empty ())
+      requireWritable (all[i].second);
 }
 
 } // namespace
@@ -194,133 +248,33 @@ guarded (const char* program, const char* if_no_memory, const std::function<int 
   return code;
 }
 
-std::string
-didYouMean (const std::string& word, const std::vector<std::string>& words)
-{
-  constexpr std::size_t FEWEST = 3; // letters that tell what they begin
-  constexpr std::size_t MOST = 4;   // more words are no help
-  const std::string typed = plain (word);
-  Words nearest;
-  std::size_t least = typed.size ();
-  for (const std::string& candidate : words) {
-    const std::string known = plain (candidate);
-    std::size_t distance = difference (typed, known);
-    if (distance > 0 && typed.size () >= FEWEST && known.compare (0, typed.size (), typed) == 0)
-      distance = 1;
-    if (2 * distance > std::min (typed.size (), known.size ()) || distance > least)
-      continue;
-    if (distance < least)
-      nearest.clear ();
-    least = distance;
-    nearest.push_back (candidate);
-  }
-  if (nearest.empty () || nearest.size () > MOST)
-    return "";
-  std::string text = "; did you mean " + nearest.front ();
-  for (std::size_t i = 1; i < nearest.size (); ++i)
-    text += (i + 1 < nearest.size () ? ", " : " or ") + nearest[i];
-  return text + "?";
-}
-
 std::optional<int>
-parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
+parseCommandLine (int argc, char** argv, CommandLine& line)
 {
-  wrapTexts (app);
-  try {
-    app.parse (std::vector<std::string> (arguments.rbegin (), arguments.rend ()));
-    return std::nullopt;
-  }
-  catch (const CLI::ParseError& error) {
-    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
-      return app.exit (error);
-    throw UsageError (usageMessage (app, error, arguments));
-  }
-}
-
-std::optional<int>
-parseCommandLine (int argc, char** argv, CommandLine& command_line)
-{
-  CLI::App app ("", command_line.program);
+  CLI::App app ("", line.program);
   const std::vector<std::string> arguments (argv + (argc > 0 ? 1 : 0), argv + argc);
-  addOptions (app, command_line);
+  addOptions (app, line);
   if (const std::optional<int> done = parseArguments (app, arguments))
     return done;
-  if (command_line.compute_normals && command_line.meshFormat () == writeStl)
-    command_line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
-                                        "triangles only, write .ply, .vtk or .obj");
-  if (command_line.options.disc.as_published) {
-    choosePublished (command_line.options.disc, app.count ("--boundary") > 0,
-                     app.count ("--ordering") > 0);
-    const Options given = command_line.options;
-    command_line.options = effectiveOptions (given); // the report lists these
-    warnOfUnpublished (app, given, command_line.options, command_line.warnings);
-  }
-  if (command_line.input.empty () || command_line.output.empty ())
+  if (line.compute_normals && line.meshFormat () == writeStl)
+    line.warnings.emplace_back ("an option has no effect: --normals; STL has normals of "
+                                "triangles only, write .ply, .vtk or .obj");
+  if (line.options.disc.as_published)
+    takePublished (app, line);
+  if (line.input.empty () || line.output.empty ())
     throw UsageError ("INPUT and OUTPUT are names of files; one of them is empty");
-  const bool needs_disc = !command_line.loop.empty () || !command_line.parameterization.empty ();
-  Topology& topology = command_line.options.topology;
+  const bool needs_disc = !line.loop.empty () || !line.parameterization.empty ();
+  Topology& topology = line.options.topology;
   if (needs_disc && topology == Topology::SURFACE)
     throw UsageError ("--loop and --parameterization are for a disc, not for --topology surface");
   if (needs_disc)
     topology = Topology::DISC;
-  requireOptions (app, command_line.options);
-  command_line.texture_coordinates =
-      command_line.texture_coordinates || !command_line.texture.empty ();
-  checkTextureOptions (command_line);
-  checkMemoryLimit (command_line);
+  requireOptions (app, line.options);
+  line.texture_coordinates |= !line.texture.empty ();
+  checkTextureOptions (line);
+  checkMemoryLimit (line);
+  checkPaths (line);
   return std::nullopt;
-}
-
-void
-checkPaths (const CommandLine& line)
-{
-  if (line.input_format == nullptr && isStandardStream (line.input))
-    throw UsageError ("INPUT is the standard input: give its format by --input-format, such as "
-                      "--input-format pcd");
-  if (line.input_format == nullptr)
-    requireCloudFormat (line.input, ", or give its format by --input-format");
-  // The first two are inputs.
-  const std::array<std::pair<std::string, std::filesystem::path>, 8> all{
-      {{"INPUT", line.input},
-       {"--loop", line.loop},
-       {"OUTPUT", line.output},
-       {"--parameterization", line.parameterization},
-       {"--report", line.report},
-       {"--html", line.html},
-       {"the file of materials", line.materials ()},
-       {"--texture", line.texture}}};
-  for (const auto& [name, path] : all)
-    if (name.front () == '-' && isStandardStream (path))
-      throw UsageError (name + " takes the name of a file, not -");
-  for (const auto& [name, path] : {all[6], all[7]})
-    if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
-      throw UsageError ("the name of the file of materials or of the texture has a line break in "
-                        "it, which files in OBJ cannot hold; choose another one");
-  const auto refuse = [] (const std::string& one, const std::string& other, const auto& path) {
-    throw UsageError (one + " and " + other + " are the same file, '" + path.string () +
-                      "'; give different ones");
-  };
-  for (std::size_t i = 2; i < all.size (); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto& [name, path] = all[i];
-      const auto& [other_name, other] = all[j];
-      if (!path.empty () && !other.empty () && !isStandardStream (path) &&
-          !isStandardStream (other) && areSame (path, other))
-        refuse (other_name, name, path);
-    }
-  if (line.meshFormat () == nullptr && isStandardStream (line.output))
-    throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
-                      "--output-format ply");
-  if (line.meshFormat () == nullptr)
-    throw WriteError ("cannot write '" + line.output.string () +
-                      "': " + unknownExtension (line.output) + "; use " + MESH_EXTENSIONS +
-                      ", or give its format by --output-format");
-  if (!line.parameterization.empty () && meshFormatOf (line.parameterization) == nullptr)
-    throw WriteError ("cannot write '" + line.parameterization.string () + "': " +
-                      unknownExtension (line.parameterization) + "; use " + MESH_EXTENSIONS);
-  for (std::size_t i = 2; i < all.size (); ++i)
-    if (!all[i].second.empty ())
-      requireWritable (all[i].second);
 }
 
 } // namespace pcl::floater

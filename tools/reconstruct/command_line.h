@@ -76,16 +76,12 @@ struct CommandLine
 constexpr Choice<Precision> PRECISION_CHOICES[] = {
     {"auto", Precision::AUTO}, {"single", Precision::SINGLE}, {"double", Precision::DOUBLE}};
 
-/// Parses the command line. Prints the help or the version if asked for.
+/// Parses the command line, and checks all paths against each other and against the disk. Prints the
+/// help or the version if asked for.
 /// \return the exit code if there is nothing else to do
-/// \throws UsageError
-std::optional<int>
-parseCommandLine (int argc, char** argv, CommandLine& command_line);
-
-/// Checks all paths against each other and against the disk, before the work begins.
-/// \throws UsageError if one file is named twice, WriteError if an output cannot be written,
+/// \throws UsageError also if one file is named twice, WriteError if an output cannot be written,
 /// ReadError if the extension of the input is unknown
-void
-checkPaths (const CommandLine& command_line);
+std::optional<int>
+parseCommandLine (int argc, char** argv, CommandLine& line);
 
 } // namespace pcl::floater

@@ -13,6 +13,7 @@
 #include "report/findings.h"
 #include "report_json.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 
@@ -87,15 +88,12 @@ findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
   constexpr CheckLimits LIMITS;
   const std::vector<Eigen::Vector3d>& positions = drawing.positions;
   const double precision = LIMITS.precision * boxAround (positions).diagonal ().norm ();
-  std::vector<Flaw> flaws{{"crossing", {}}, {"folded", {}}, {"flat", {}}, {"long", {}}};
-  const auto add = [] (Flaw& flaw, const std::vector<Index>& triangles) {
-    flaw.triangles.insert (flaw.triangles.end (), triangles.begin (), triangles.end ());
-  };
+  std::vector<Index> crossing, folded, flat, at_long_edges;
   if (has_crossings)
     for (const CrossingPair& pair : findSelfIntersections (mesh.triangles, positions, run))
-      add (flaws[0], {pair.first, pair.second});
+      crossing.insert (crossing.end (), {pair.first, pair.second});
   for (const MeshEdge edge : findFolds (mesh, positions, run))
-    add (flaws[1], {edge.triangle, mesh.mate (edge).triangle});
+    folded.insert (folded.end (), {edge.triangle, mesh.mate (edge).triangle});
   for (Index t = 0; t < mesh.triangles.size (); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     double longest = 0.0;
@@ -106,12 +104,14 @@ findFlaws (const TriangleMesh& mesh, const Drawing& drawing, bool has_crossings,
       longest = std::max (longest, length);
       if (other != NONE && other > t &&
           length > LIMITS.long_edge * 0.5 * (drawing.spacing[from] + drawing.spacing[to]))
-        add (flaws[3], {t, other});
+        at_long_edges.insert (at_long_edges.end (), {t, other});
     }
     const double height = areaVector (positions[a], positions[b], positions[c]).norm () / longest;
     if (!(height > precision || height > LIMITS.flat_height * longest))
-      add (flaws[2], {t});
+      flat.push_back (t);
   }
+  std::vector<Flaw> flaws{
+      {"crossing", crossing}, {"folded", folded}, {"flat", flat}, {"long", at_long_edges}};
   for (Flaw& flaw : flaws)
     sortUnique (flaw.triangles);
   return flaws;
@@ -374,10 +374,7 @@ htmlReport (const CommandLine& line, const Cloud& cloud, const Result& result,
                        {"height", histogramJson (drawing.height, 1.0, false)}}},
                      {"mesh", meshJson (drawing, result.triangles.size (), std::move (dots))}};
   // No text can end the element of HTML that holds it.
-  std::string text (HTML_BEFORE_DATA);
-  for (const char c : dump (data))
-    c == '<' ? text += "\\u003c" : text += c;
-  return text + HTML_AFTER_DATA;
+  return HTML_BEFORE_DATA + boost::replace_all_copy (dump (data), "<", "\\u003c") + HTML_AFTER_DATA;
 }
 
 } // namespace pcl::floater

@@ -207,10 +207,9 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
     for (std::uint32_t& point : run.texture.points)
       point = cloud.pointOf (point);
     stageTexture (line, cloud, result, run.texture, files);
-    std::vector<std::uint32_t> points = run.texture.points; // points on seams are doubled
-    points.erase (std::unique (points.begin (), points.end ()), points.end ());
-    if (line.meshFormat () != writeObj)
-      run.vertices += run.texture.points.size () - points.size ();
+    const std::vector<std::uint32_t>& points = run.texture.points; // those on seams are doubled
+    for (std::size_t i = 1; line.meshFormat () != writeObj && i < points.size (); ++i)
+      run.vertices += points[i] == points[i - 1] ? 1 : 0;
   }
   stage (line.output, cloud, result.triangles, line.meshFormat (),
          line.texture_coordinates ? &run.texture : nullptr);
@@ -223,7 +222,6 @@ stageOutputs (const CommandLine& line, Cloud& cloud, Result& result, RunFigures&
 int
 run (CommandLine line)
 {
-  readNamed (line.input, [&] { checkPaths (line); });
   if (line.max_memory > 0)
     keepLargeArraysIn (line.scratch, line.max_memory);
   Progress progress (!line.quiet);
@@ -261,10 +259,9 @@ run (CommandLine line)
   OutputFiles files;
   if (report.status == RunStatus::SUCCESS)
     stageOutputs (line, cloud, result, figures, files);
-  const std::string objection = line.strict ? objectionTo (report) : "";
-  figures.is_refused = !objection.empty ();
-  if (figures.is_refused) { // only the report is written
-    files.clear ();
+  if (const std::string objection = objectionTo (report); line.strict && !objection.empty ()) {
+    figures.is_refused = true;
+    files.clear (); // only the report is written
     report.message = objection + ", which --strict does not allow";
   }
   if (!line.report.empty ())

@@ -6,64 +6,106 @@
 
 namespace pcl::floater {
 namespace {
+using Words = std::vector<std::string>;
+
+std::string
+plain (const std::string& word)
+{
+  return boost::to_lower_copy (boost::trim_left_copy_if (word, boost::is_any_of ("-")));
+}
+
+/// Letters of the longer word that are left when equal beginnings and ends are taken off both: one
+/// if a letter was inserted, dropped or replaced, two if neighbours were swapped.
+std::size_t
+difference (std::string_view a, std::string_view b)
+{
+  const auto common = [] (auto first, auto last, auto other, auto other_last) {
+    return static_cast<std::size_t> (std::mismatch (first, last, other, other_last).first - first);
+  };
+  const std::size_t begin = common (a.begin (), a.end (), b.begin (), b.end ());
+  a.remove_prefix (begin);
+  b.remove_prefix (begin);
+  return std::max (a.size (), b.size ()) - common (a.rbegin (), a.rend (), b.rbegin (), b.rend ());
+}
+
+std::string
+usageMessage (const CLI::App& app, const CLI::ParseError& error, const Words& arguments)
+{
+  const std::string message = error.what ();
+  const auto kind = static_cast<CLI::ExitCodes> (error.get_exit_code ());
+  // A mistyped option may leave its value where INPUT should be: so it is told first.
+  for (const std::string& word : app.remaining ())
+    if (word.size () > 1 && word.front () == '-' && word != "--") {
+      const std::string unknown = word.substr (0, word.find ('='));
+      Words names;
+      for (const CLI::Option* const option : app.get_options ())
+        if (!option->get_lnames ().empty ())
+          names.push_back (option->get_name ());
+      return "there is no option " + unknown + didYouMean (unknown, names);
+    }
+  if (kind == CLI::ExitCodes::ExtrasError)
+    return "'" + app.remaining ().front () +
+           "' is one file too many: there are one INPUT and one OUTPUT";
+  if (kind == CLI::ExitCodes::RequiredError)
+    return message + "; the simplest command is " + app.get_name () + " scan.pcd mesh.ply";
+  const bool is_mismatch = kind == CLI::ExitCodes::ArgumentMismatch;
+  if (is_mismatch ||
+      kind == CLI::ExitCodes::ConversionError) // of which the parser converts flags only
+    for (const std::string& argument : arguments) {
+      const std::size_t equals = std::min (argument.find ('='), argument.size ());
+      const std::string name = argument.substr (0, equals);
+      const CLI::Option* const option = app.get_option_no_throw (name);
+      if (option != nullptr && option->get_items_expected () == 0 && equals < argument.size ())
+        return name + " takes no value, but has '" + argument.substr (equals + 1) + "'";
+    }
+  const CLI::Option* const option =
+      app.get_option_no_throw (message.substr (0, message.find (':')));
+  if (!is_mismatch || option == nullptr)
+    return message;
+  if (option->count () > 1)
+    return option->get_name () + " is given " + std::to_string (option->count ()) +
+           " times; give it once";
+  const std::string& text = option->get_option_text ();
+  return option->get_name () + " needs a value, " + text.substr (0, text.find (" ("));
+}
+
+/// Breaks the texts of all options into lines.
+void
+wrapTexts (CLI::App& app)
+{
+  constexpr std::size_t COLUMNS = 55;
+  for (CLI::Option* const option : app.get_options ()) {
+    std::string text = option->get_description ();
+    std::size_t begin = 0; // of the line
+    for (std::size_t i = 0, space = 0; i < text.size (); ++i) {
+      if (text[i] == '\n')
+        begin = i + 1;
+      else if (text[i] == ' ')
+        space = i;
+      // The words of a choice stay on one line, behind a colon.
+      const bool is_choice = begin >= 2 && text[begin - 2] == ':';
+      if (i - begin >= COLUMNS && space > begin && !is_choice) {
+        text[space] = '\n';
+        begin = space + 1;
+      }
+    }
+    option->description (text);
+  }
+}
+
 /// Reads "1,-2.5,3".
 /// \return nothing if these are not three finite numbers
 std::optional<Eigen::Vector3d>
 parsePlace (const std::string& word)
 {
+  std::vector<std::string> numbers;
+  boost::split (numbers, word, boost::is_any_of (","));
   Eigen::Vector3d place;
-  std::size_t first = 0;
-  bool is_good = std::count (word.begin (), word.end (), ',') == 2;
-  for (int axis = 0; axis < 3 && is_good; ++axis) {
-    const std::size_t comma = std::min (word.find (',', first), word.size ());
-    is_good = parseNumber (std::string_view (word).substr (first, comma - first), place[axis]);
-    first = comma + 1;
-  }
+  bool is_good = numbers.size () == 3;
+  for (std::size_t axis = 0; axis < 3 && is_good; ++axis)
+    is_good = parseNumber (numbers[axis], place[static_cast<Eigen::Index> (axis)]);
   return is_good && place.allFinite () ? std::optional (place) : std::nullopt;
 }
-
-using option_group::GENERAL;
-
-const char* const DESCRIPTION =
-    R"(Reconstructs a surface from unorganized points. The vertices of the mesh are the points of
-the cloud, in the same order and with all their fields. The surface may be open or closed,
-with holes, handles or several components. It is put together from the triangles on which the
-Delaunay stars of neighbouring points agree. A disc can also be laid out in the plane, by
-Floater's meshless parameterization. The defaults need no tuning.
-)";
-
-const char* const FOOTER =
-    R"(Examples:
-  pcl_floater_reconstruct scan.pcd scan.vtk
-  pcl_floater_reconstruct --report scan.json --parameterization flat.ply scan.ply mesh.ply
-  pcl_floater_reconstruct --holes close-all --strict statue.pcd statue.stl
-  pcl_floater_reconstruct --method tw385 scan.pcd paper.ply
-
-Notes:
-  With --shift, coordinates in the outputs and in messages are those after the origin was
-  subtracted. The report has it, and all formats but .stl have it in a comment. Coordinates in text
-  files are then read with all their digits, also where the file says float.
-  Of a mesh, only the points are read. pcl_viewer opens .vtk. With - for OUTPUT, the summary goes to
-  the standard error stream, and the mesh comes when it is complete.
-  Points with a NaN or infinite coordinate, pixels without a return, cells without data, and what an
-  airborne scan marks as withheld or noise are left out of the output, so that the vertices after
-  them move up. All other points are vertices of the output, also those that are in no triangle:
-  outliers, repeated points, and points that could not be connected. The report lists them all.
-  With --uv, points on seams are several vertices in .ply and .vtk: the others follow after all
-  points. An .obj has a file of materials beside it, with its name and .mtl.
-  An output file appears when it is complete, and replaces an existing one. After a failure there is
-  no new mesh, and existing files are unchanged.
-
-Exit codes:
-  0  success
-  1  usage: an option is unknown, malformed, out of its range, or not for this input
-  2  the input cannot be read: missing, truncated, damaged, without x y z
-  3  the cloud cannot be reconstructed; the message and the report name the status
-  4  an output cannot be written, or nothing can be printed; no file is changed
-  5  out of memory, or an internal error
-  6  with --strict: the mesh is poor, or points are in no triangle; the report
-     is written, but no mesh
-)";
 
 // Adds options of the table.
 struct TableOptions
@@ -113,6 +155,49 @@ struct TableOptions
 
 } // namespace
 
+std::string
+didYouMean (const std::string& word, const std::vector<std::string>& words)
+{
+  constexpr std::size_t FEWEST = 3; // letters that tell what they begin
+  constexpr std::size_t MOST = 4;   // more words are no help
+  const std::string typed = plain (word);
+  Words nearest;
+  std::size_t least = typed.size ();
+  for (const std::string& candidate : words) {
+    const std::string known = plain (candidate);
+    std::size_t distance = difference (typed, known);
+    if (distance > 0 && typed.size () >= FEWEST && known.compare (0, typed.size (), typed) == 0)
+      distance = 1;
+    if (2 * distance > std::min (typed.size (), known.size ()) || distance > least)
+      continue;
+    if (distance < least)
+      nearest.clear ();
+    least = distance;
+    nearest.push_back (candidate);
+  }
+  if (nearest.empty () || nearest.size () > MOST)
+    return "";
+  std::string text = "; did you mean " + nearest.front ();
+  for (std::size_t i = 1; i < nearest.size (); ++i)
+    text += (i + 1 < nearest.size () ? ", " : " or ") + nearest[i];
+  return text + "?";
+}
+
+std::optional<int>
+parseArguments (CLI::App& app, const std::vector<std::string>& arguments)
+{
+  wrapTexts (app);
+  try {
+    app.parse (std::vector<std::string> (arguments.rbegin (), arguments.rend ()));
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError& error) {
+    if (error.get_exit_code () == static_cast<int> (CLI::ExitCodes::Success))
+      return app.exit (error);
+    throw UsageError (usageMessage (app, error, arguments));
+  }
+}
+
 void
 addTableOptions (CLI::App& app, CommandLine& line,
                  const std::function<bool (const OptionRow&)>& takes)
@@ -126,14 +211,13 @@ addTableOptions (CLI::App& app, CommandLine& line,
   addChoice (
       app, "--use-input-normals", line.use_input_normals, SWITCH_CHOICES,
       "take the normals of the input for tangent planes, and, with --facing auto, for the front");
-  if (app.get_option_no_throw ("--largest-hole") != nullptr)
-    app.get_option ("--largest-hole")->excludes (app.get_option ("--largest-hole-length"));
+  app.get_option ("--largest-hole")->excludes (app.get_option ("--largest-hole-length"));
 }
 
 void
 addLimitAndCoordinates (CLI::App& app, CommandLine& line)
 {
-  beginGroup (app, GENERAL);
+  beginGroup (app, option_group::GENERAL);
   const auto parseLimit = [&line] (const std::string& word) -> std::string {
     if (!parseSize (word, line.max_memory))
       return "is not a size, such as 500M or 2G";
@@ -188,54 +272,6 @@ addLimitAndCoordinates (CLI::App& app, CommandLine& line)
   addChoice (app, "--precision", line.precision, PRECISION_CHOICES,
              "precision of coordinates in outputs; auto: single, with --shift auto for doubles. "
              "PCL reads doubles of a .ply as 0");
-}
-
-void
-addOptions (CLI::App& app, CommandLine& line)
-{
-  prepareApp (app, DESCRIPTION, FOOTER);
-  addTableOptions (app, line, [] (const OptionRow&) { return true; });
-  addLimitAndCoordinates (app, line);
-  app.add_flag ("--json", line.json, "print a summary as JSON, in the last line");
-  app.add_flag ("-q,--quiet", line.quiet, "print errors only, and the line of --json");
-  app.add_flag ("-v,--verbose", line.verbose,
-                "print all warnings, and the decisions that are not sure")
-      ->excludes ("--quiet");
-  app.add_flag ("--strict", line.strict,
-                "write no mesh if it is poor, or if points are in no triangle");
-  beginGroup (app, option_group::BOUNDARY);
-  addPath (app, "--loop", line.loop,
-           "read the boundary loop from this text file: indices of points, from 0, in order; makes "
-           "a disc");
-  beginGroup (app, "Files");
-  addPath (app, "INPUT", line.input,
-           std::string ("point cloud: ") + CLOUD_EXTENSIONS + "; - is the standard input", " ")
-      ->required ();
-  addPath (app, "OUTPUT", line.output,
-           std::string ("mesh to write: ") + MESH_EXTENSIONS + "; - is the standard output", " ")
-      ->required ();
-  addChoice (app, "--input-format", line.input_format, CLOUD_FORMATS,
-             "format of INPUT; auto: that of its extension; xyz: text with a point in each line");
-  addChoice (app, "--output-format", line.output_format, MESH_FORMATS,
-             "format of OUTPUT; auto: that of its extension");
-  addOutputs (app, line);
-  addPath (app, "--html", line.html,
-           "write the report as a page for a browser: figures, findings and the mesh, which turns");
-  addNumber (app, "--page-triangles", line.shown_triangles,
-             "most triangles that the page shows; in larger meshes, vertices are joined");
-  addPath (app, "--parameterization", line.parameterization,
-           "write the mesh laid out in the plane z = 0, in any of the mesh formats; makes a disc");
-  app.add_flag (
-      "--uv", line.texture_coordinates,
-      "write texture coordinates with the mesh: vt of .obj, s and t of .ply, TCoords of .vtk");
-  addPath (app, "--texture", line.texture,
-           "write a texture of the colours of the points, as .png, and --uv; an .obj names it in "
-           "its .mtl");
-  app.add_option ("--texture-size", line.texture_size,
-                  "side of the texture in pixels, 16 to 16384; by default a power of two, two "
-                  "pixels for an edge")
-      ->option_text ("N")
-      ->check (CLI::Range (16, 16384));
 }
 
 } // namespace pcl::floater

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All options of the tool, in the groups of its help.
+// Options of the tools, in the groups of their help.
 #pragma once
 
 #include "command_line.h"
@@ -8,7 +8,7 @@
 #include "text_scanner.h"
 
 #include <CLI/CLI.hpp>
-#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string.hpp>
 
 #include <sstream>
 
@@ -18,9 +18,8 @@ namespace pcl::floater {
 std::string
 didYouMean (const std::string& word, const std::vector<std::string>& words);
 
-// Options by the kind of their value: a word, a number, a path, a place. Each writes its value to
-// where it is told, shows the default in the help, and refuses a malformed word by name. Each is in
-// the group that beginGroup () has named last.
+// Options by the kind of their value, in the group that beginGroup () has named last. Each shows the
+// default in the help, and refuses a malformed word by name.
 
 /// The next options are below this heading of the help.
 inline void
@@ -117,8 +116,7 @@ prepareApp (CLI::App& app, const char* description, const char* footer)
                         "print the version and exit");
 }
 
-/// Parses a command line, after breaking the texts of all options into lines. Prints the help or the
-/// version if asked for.
+/// Parses a command line. Prints the help, with texts broken into lines, or the version if asked for.
 /// \return the exit code if there is nothing else to do
 /// \throws UsageError
 std::optional<int>
@@ -135,11 +133,6 @@ requireOptions (const CLI::App& app, const Options& options)
                           ? problem.message
                           : name + problem.message.substr (problem.option.size ()));
 }
-
-/// Adds every option of pcl_floater_reconstruct and the two positional arguments to \a app, which
-/// writes to \a line when it parses, and so has to end before it.
-void
-addOptions (CLI::App& app, CommandLine& line);
 
 /// The rows of the table of options that the tool takes, and --use-input-normals.
 void

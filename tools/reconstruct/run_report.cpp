@@ -250,8 +250,7 @@ void
 printOutcome (const CommandLine& line, const Report& report, const RunFigures& figures)
 {
   const bool is_ok = report.status == RunStatus::SUCCESS && !figures.is_refused;
-  const bool has_mesh = isStandardStream (line.output); // the standard output takes nothing else
-  std::FILE* const to = has_mesh ? stderr : stdout;
+  std::FILE* const to = isStandardStream (line.output) ? stderr : stdout; // a mesh is alone there
   constexpr std::size_t FEW = 3; // the first warnings matter most
   const std::size_t count = report.warnings.size ();
   const bool shows_all = line.verbose || figures.is_refused;

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <sys/resource.h>
+#include <sys/vfs.h>
 
 #include <chrono>
 
@@ -110,7 +111,11 @@ completeReport (const CommandLine& line, const std::vector<std::string>& of_inpu
     report.message = failure;
   if (line.max_memory == 0)
     return;
-  if (liesInMemory (line.scratch))
+  constexpr unsigned long TMPFS = 0x01021994UL, RAMFS = 0x858458f6UL; // kept in memory
+  struct statfs status = {};
+  const bool is_known = ::statfs (line.scratch.c_str (), &status) == 0;
+  const auto type = static_cast<unsigned long> (status.f_type);
+  if (is_known && (type == TMPFS || type == RAMFS))
     report.warnings.push_back ("the scratch folder '" + line.scratch.string () +
                                "' is in memory itself; use --scratch to name one on a disk");
   const std::size_t peak = peakMemory ();
@@ -120,11 +125,11 @@ completeReport (const CommandLine& line, const std::vector<std::string>& of_inpu
 }
 
 nlohmann::ordered_json
-reportJson (const CommandLine& command_line, const Report& report, const RunFigures& run);
+reportJson (const CommandLine& line, const Report& report, const RunFigures& run);
 
 /// The same as text, with one line for each of its keys.
 std::string
-reportText (const CommandLine& command_line, const Report& report, const RunFigures& run);
+reportText (const CommandLine& line, const Report& report, const RunFigures& run);
 
 /// The report as one page of HTML that refers to nothing outside: outcome, figures, histograms,
 /// findings and uncertain decisions with their places, and the mesh, drawn by WebGL. All that

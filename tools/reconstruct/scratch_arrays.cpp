@@ -27,13 +27,6 @@ namespace pcl::floater {
 namespace {
 constexpr std::chrono::milliseconds BETWEEN_LOOKS{1};
 
-/// Why the last array that could not be made had no room.
-struct ScratchFailure
-{
-  int error = 0;
-  std::size_t wanted = 0, held = 0; // bytes
-};
-
 /// All arrays in files. Nothing may be freed while it is locked, because operator delete locks it as
 /// well. Nodes of the table can be allocated, because they are no large arrays.
 struct ScratchArrays
@@ -41,8 +34,12 @@ struct ScratchArrays
   std::mutex mutex;                   // guards all but the folder
   std::map<void*, std::size_t> sizes; // by address
   ScratchUse use;
-  ScratchFailure failure;
-  std::string folder; // set once, before there are arrays
+  struct
+  {
+    int error = 0;
+    std::size_t wanted = 0, held = 0; // bytes
+  } failure;                          // why the last array that could not be made had no room
+  std::string folder;                 // set once, before there are arrays
 };
 
 // Never destroyed, because arrays may be freed until the process ends.
@@ -180,10 +177,9 @@ scratchFailure ()
     return std::to_string (bytes / 1'000'000) + " MB";
   };
   ScratchArrays& all = scratchArrays ();
-  const ScratchFailure last = [&all] {
-    const std::lock_guard<std::mutex> lock (all.mutex);
-    return all.failure;
-  }();
+  std::unique_lock<std::mutex> lock (all.mutex);
+  const auto last = all.failure;
+  lock.unlock ();
   if (last.error == 0)
     return "";
   return "no room in the scratch folder '" + all.folder + "': " + std::strerror (last.error) +
@@ -212,7 +208,7 @@ parseSize (std::string_view word, std::size_t& bytes)
 }
 
 void
-prepareHeap (bool in_huge_pages)
+prepareHeap ([[maybe_unused]] bool in_huge_pages)
 {
 #ifdef __GLIBC__
   constexpr int THRESHOLD = 8 << 20, IN_HUGE_PAGES = 64 << 20;
@@ -230,8 +226,6 @@ prepareHeap (bool in_huge_pages)
     std::free (begin);
   }
   mallopt (M_TOP_PAD, THRESHOLD / 2);
-#else
-  (void)in_huge_pages;
 #endif
 }
 

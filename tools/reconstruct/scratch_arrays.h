@@ -8,7 +8,6 @@
 #pragma once
 
 #include <dlfcn.h>
-#include <sys/vfs.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -33,18 +32,6 @@ keepLargeArraysIn (const std::filesystem::path& folder, std::size_t limit);
 /// Takes the pages of all large arrays in files and of mapped input files out of the resident set.
 void
 dropPages ();
-
-/// Whether the files in this folder are kept in memory (tmpfs, ramfs); false if that is unknown.
-inline bool
-liesInMemory (const std::filesystem::path& folder)
-{
-  constexpr unsigned long TMPFS = 0x01021994UL, RAMFS = 0x858458f6UL;
-  struct statfs status = {};
-  if (::statfs (folder.c_str (), &status) != 0)
-    return false;
-  const auto type = static_cast<unsigned long> (status.f_type);
-  return type == TMPFS || type == RAMFS;
-}
 
 /// Use of the scratch folder, in bytes.
 struct ScratchUse
@@ -104,12 +91,9 @@ void
 giveFreedBack ();
 
 /// Ends the worker threads that OpenBLAS starts with the program. They wait busily for about a
-/// tenth of a second, on the cores that the reconstruction needs; it uses none of them. OpenBLAS
-/// would start them again if it were asked to use several threads. It is looked up at run time;
-/// with any other BLAS this does nothing.
-///
-/// To be called before any other thread is started, and not where the address space is limited: a
-/// worker that finds no memory never ends.
+/// tenth of a second, on the cores that the reconstruction needs; it uses none of them. It is looked up
+/// at run time. To be called before any other thread is started, and not where the address space is
+/// limited: a worker that finds no memory never ends.
 inline void
 endBlasThreads ()
 {
