@@ -43,10 +43,9 @@ rayTo (const Vector3d& position, const Viewpoint& viewpoint);
 
 /// A direction in the widest of the cones without rays, of those around evenly spread directions.
 /// \param positions some 2000 of them are looked at
-/// \param[out] cosine of the angle to the nearest ray
-Vector3d
-emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
-                double& cosine);
+/// \return and the cosine of its angle to the nearest ray
+std::pair<Vector3d, double>
+emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries);
 
 /// The rays to all points.
 struct Rays
