@@ -7,7 +7,6 @@
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"
 #include "mesh/trimming.h"
-#include "view/outlines.h"
 
 namespace pcl::floater {
 namespace {

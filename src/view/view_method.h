@@ -5,7 +5,6 @@
 
 #include "consensus/consensus_method.h"
 #include "points/points.h"
-#include "view/depth_steps.h"
 #include "view/ray_evidence.h"
 #include "view/view_flips.h"
 #include "view/viewpoint_search.h"
