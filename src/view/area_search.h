@@ -73,7 +73,7 @@ patternSearch (const Viewpoint& start, double step, double smallest_step, const 
     viewpoint.place += by;
     if (viewpoint.is_far)
       viewpoint.place.normalize ();
-    evaluations -= evaluations > 0 ? 1 : 0;
+    --evaluations;
     return {cost (viewpoint), viewpoint};
   };
   // Changing axes: in a narrow valley of the cost, no fixed axis may lead down.
