@@ -37,9 +37,8 @@ outliersOf (const Points& points, const CsrLists& neighbors, const Request& requ
 {
   if (!request.options.remove_outliers)
     return {};
-  return exceptLoop (
-      findOutliers (points.positions, neighbors, request.run, request.limits.outliers), points,
-      request.options.disc.boundary.loop);
+  return exceptLoop (findOutliers (points.positions, neighbors, request.run), points,
+                     request.options.disc.boundary.loop);
 }
 
 Problem
@@ -99,18 +98,6 @@ takeScatter (Points& points, const std::vector<Index>& scatter, const Options& o
   return drops;
 }
 
-StarSettings
-starSettings (const Request& request)
-{
-  const Options& options = request.options;
-  StarSettings settings;
-  settings.filter_sheets = options.filter_sheets;
-  settings.with_offsets = asksForDisc (options);
-  settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
-  settings.limits = request.limits.sheets;
-  return settings;
-}
-
 LocalPlanes
 searchPlanes (const Points& points, const NeighborSettings& settings, const Request& request)
 {
@@ -120,7 +107,8 @@ searchPlanes (const Points& points, const NeighborSettings& settings, const Requ
   CsrLists neighbors =
       findNeighbors (points, settings, run, asksForDisc (request.options) ? nullptr : &tree);
   run.beginStage (Stage::STARS);
-  return beginPlanes (points, std::move (neighbors), std::move (tree), starSettings (request), run);
+  return beginPlanes (points, std::move (neighbors), std::move (tree),
+                      starSettings (request.options), run);
 }
 
 LocalGeometry
@@ -129,7 +117,7 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
 {
   const RunContext& run = request.run;
   points.projected = projectNoisyPoints (points.positions, geometry.neighbors, noise, run);
-  const StarSettings stars = starSettings (request);
+  const StarSettings stars = starSettings (request.options);
   LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
                                        request.limits.planes);
   LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);

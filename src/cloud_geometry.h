@@ -37,10 +37,6 @@ bool
 takeScatter (Points& points, const std::vector<Index>& scatter, const Options& options,
              Report& report);
 
-/// Settings for the stars of the points.
-StarSettings
-starSettings (const Request& request);
-
 /// The neighbours of all points, and their spacing, for fitLocalPlanes ().
 LocalPlanes
 searchPlanes (const Points& points, const NeighborSettings& settings, const Request& request);

@@ -32,7 +32,7 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
          const Request& request)
 {
   request.run.beginStage (Stage::CHECK);
-  return checkMesh (mesh, points, geometry.meshSpacing (), request.run, request.limits.check);
+  return checkMesh (mesh, points, geometry.meshSpacing (), request.run);
 }
 
 // Points that were set aside get the point that stands for them as a neighbour, and its neighbours.
@@ -195,7 +195,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   if (net.stacked.of.empty ())
     net.projected = points.projected;
   else {
-    const StarSettings stars = starSettings (request);
+    const StarSettings stars = starSettings (request.options);
     LocalPlanes planes = beginPlanes (net, std::move (geometry.neighbors), {}, stars, run);
     planes = fitLocalPlanes (net, std::move (planes), stars, run, request.limits.planes);
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
@@ -308,7 +308,7 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                       ? "asked for"
                                       : "its boundary loop is given";
   Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
-                        {options, starSettings (request), request.limits.surface.finish,
+                        {options, starSettings (options), request.limits.surface.finish,
                          facingHints (points, request)},
                         request.run);
   reportDisc (points, disc, result.report);

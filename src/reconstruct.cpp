@@ -72,7 +72,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (Problem problem = checkPoints (points))
     return problem;
   run.beginStage (Stage::STARS);
-  const StarSettings stars = starSettings (request);
+  const StarSettings stars = starSettings (options);
   LocalPlanes planes =
       known != nullptr ? known->planes ()
                        : beginPlanes (points, std::move (neighbors), std::move (tree), stars, run);

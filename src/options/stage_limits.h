@@ -7,21 +7,16 @@
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
 #include "local/planes.h"
-#include "mesh/check.h"
 #include "points/net.h"
-#include "points/outliers.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
   NetLimits net;
-  OutlierLimits outliers;
   PlaneLimits planes;
-  SheetLimits sheets;
   SurfaceLimits surface;
   ViewLimits view;
-  CheckLimits check;
 };
 
 struct Request
@@ -44,6 +39,17 @@ inline bool
 asksForDisc (const Options& options)
 {
   return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
+}
+
+/// Settings for the stars of the points.
+inline StarSettings
+starSettings (const Options& options)
+{
+  StarSettings settings;
+  settings.filter_sheets = options.filter_sheets;
+  settings.with_offsets = asksForDisc (options);
+  settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
+  return settings;
 }
 
 /// Whether the cloud may be connected as its sensor saw it.

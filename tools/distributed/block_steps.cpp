@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "job.h"
 
-#include "cloud_geometry.h"
 #include "points/neighbors.h"
 #include "points/net.h"
 #include "points/outliers.h"
@@ -109,7 +108,7 @@ outliersStep (const Job& job, const Store& store, const Plan& plan)
              nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
   if (context.options.remove_outliers)
-    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
+    outliers = findOutliers (points.positions, neighbors, context.run);
   if (!outliers.empty ())
     removePoints (points, outliers);
   if (!are_stacked.empty () || !outliers.empty ())
@@ -133,7 +132,7 @@ planesStep (const StepContext& context, std::size_t block)
     nearest =
         findNearestOfBlock (search, cloud.points (), context.options.neighbors.k, context.run);
   }
-  const StarSettings settings = starSettings ({context.options, context.limits, context.run});
+  const StarSettings settings = starSettings (context.options);
   BlockSearch search (cloud.cutter (), block, PLANE_HALO, nearest.ids);
   LocalPlanes planes;
   do {
@@ -161,7 +160,7 @@ starsStep (const StepContext& context, std::size_t block)
   StoredCloud cloud (context, readLeftOut (context));
   if (!cloud.hasPoints (block))
     return put (context, "stars", block);
-  const StarSettings settings = starSettings ({context.options, context.limits, context.run});
+  const StarSettings settings = starSettings (context.options);
   const std::vector<Index> own = cloud.own (block);
   const CsrLists beside_lists = cloud.gatherLists ("planes", "beside", own);
   CsrLists all_lists = cloud.nearest (own);
