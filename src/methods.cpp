@@ -163,8 +163,8 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =
         trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
-    std::vector<Index> unused = std::move (found.unused); // without points that trimming leaves
-                                                          // unused
+    // Without points that trimming leaves unused.
+    std::vector<Index> unused = std::move (found.unused);
     found = examine (mesh, points, geometry, request);
     if (!report.is_view)
       checkCrossing (mesh.triangles, points, request.run, found);
@@ -237,22 +237,6 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   return boundary;
 }
 
-// The given viewpoint, or the origin of the sensor if rays or outlines tell that it was there.
-std::optional<Viewpoint>
-knownViewpoint (const Points& points, const Request& request)
-{
-  const ViewOptions& options = request.options.view;
-  const bool is_given = options.use == ViewUse::GIVEN;
-  const Viewpoint viewpoint{
-      points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
-  const Sight sight =
-      is_given ? Sight::CERTAIN
-               : sightFrom (points, viewpoint, isSensorKnown (request.sensor_origin), request.run);
-  if (sight == Sight::NO)
-    return {};
-  return Viewpoint{viewpoint.place, false, sight == Sight::POSSIBLE};
-}
-
 // If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
 // that one. The given one is then likely to be wrong. First the sensor origin in the file is
 // tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
@@ -290,9 +274,9 @@ countContradictions (const Points& points, const Viewpoint& viewpoint, const Vie
     depths.push_back (rayTo (position, viewpoint).depth);
   const double least =
       viewpoint.is_far ? -std::numeric_limits<double>::infinity () : AT_SENSOR * median (depths);
-  return static_cast<std::size_t> (std::count_if (unused.begin (), unused.end (), [&] (Index p) {
+  return std::count_if (unused.begin (), unused.end (), [&] (Index p) {
     return surface.is_at_step[p] != 0 && rayTo (points.positions[p], viewpoint).depth >= least;
-  }));
+  });
 }
 
 } // namespace
@@ -378,13 +362,20 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
 std::optional<Problem>
 reconstructKnownView (const Points& points, const Request& request, Result& result)
 {
-  const std::optional<Viewpoint> viewpoint = knownViewpoint (points, request);
-  if (!viewpoint)
-    return {};
+  const ViewOptions& options = request.options.view;
+  const bool is_given = options.use == ViewUse::GIVEN;
+  Viewpoint viewpoint{points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
   std::optional<Viewpoint> other;
-  if (request.options.view.use == ViewUse::GIVEN)
-    other = contradictingViewpoint (points, *viewpoint, request);
-  std::optional<Problem> problem = reconstructView (points, *viewpoint, request, result);
+  if (is_given)
+    other = contradictingViewpoint (points, viewpoint, request);
+  else {
+    const bool is_told = isSensorKnown (request.sensor_origin);
+    const Sight sight = sightFrom (points, viewpoint, is_told, request.run);
+    if (sight == Sight::NO)
+      return {};
+    viewpoint.is_only_told = sight == Sight::POSSIBLE;
+  }
+  std::optional<Problem> problem = reconstructView (points, viewpoint, request, result);
   if (problem && !*problem && other)
     reportOtherViewpoint (points, *other, result.report);
   return problem;
