@@ -12,7 +12,7 @@
 #include "options/check_options.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
-#include "report/verdict.h"
+#include "report/report_mesh.h"
 
 namespace pcl::floater {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "core/order_statistics.h"
 #include "report/findings.h"
-#include "report/verdict.h"
 
 namespace pcl::floater {
 namespace {
