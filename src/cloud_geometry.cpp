@@ -89,8 +89,7 @@ takeScatter (Points& points, const std::vector<Index>& scatter, const Options& o
   report.statistics.scatter_points = report.scatter.size ();
   if (drops && options.scatter == ScatterPolicy::AUTO) // not asked for
     addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, report.scatter.size (),
-                100.0 * static_cast<double> (report.scatter.size ()) /
-                    static_cast<double> (points.total ()));
+                100.0 * report.scatter.size () / points.total ());
   if (drops) {
     removePoints (points, scatter);
     report.statistics.working_points = points.total ();

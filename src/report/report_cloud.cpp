@@ -58,8 +58,7 @@ reportStacks (const Points& points, const Stacks& stacks, Report& report)
   report.statistics.largest_stack_height = stacks.largest;
   if (stacks.points > 0)
     addFinding (report, FindingId::STACKED_POINTS, points, {stacks.at}, stacks.points,
-                100.0 * static_cast<double> (stacks.points) / static_cast<double> (points.total ()),
-                stacks.median, stacks.largest);
+                100.0 * stacks.points / points.total (), stacks.median, stacks.largest);
 }
 
 void
@@ -72,9 +71,7 @@ reportNoise (const Noise& noise, bool denoised, Report& report)
   report.denoised = denoised;
   if (denoised)
     addFinding (report, FindingId::NOISE, {}, {}, noise.noisy_points, noise.largest, noise.median,
-                noise.quantile_90,
-                100.0 * static_cast<double> (noise.noisy_points) /
-                    static_cast<double> (noise.at_point.size ()));
+                noise.quantile_90, 100.0 * noise.noisy_points / noise.at_point.size ());
 }
 
 void
