@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "methods.h"
 
-#include "cloud_geometry.h"
 #include "core/order_statistics.h"
 #include "input/input.h"
 #include "mesh/check.h"
@@ -237,32 +236,6 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   return boundary;
 }
 
-// If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
-// that one. The given one is then likely to be wrong. First the sensor origin in the file is
-// tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
-// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
-// otherwise the time of a search.
-std::optional<Viewpoint>
-contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
-{
-  const RunContext& run = request.run;
-  const auto isSeen = [&] (const Viewpoint& viewpoint) {
-    return sightFrom (points, viewpoint, false, run) != Sight::NO;
-  };
-  if (isSeen (given))
-    return {};
-  const Viewpoint of_file{points.fromCloud (request.sensor_origin)};
-  if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
-    return of_file;
-  const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
-  const RowOf row_of = rowsBeside (points, planes, request.limits.planes);
-  const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
-  for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
-    if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))
-      return found;
-  return {};
-}
-
 // Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on
 // what bears the sensor, which are no part of the scene.
 std::size_t
@@ -277,6 +250,22 @@ countContradictions (const Points& points, const Viewpoint& viewpoint, const Vie
   return std::count_if (unused.begin (), unused.end (), [&] (Index p) {
     return surface.is_at_step[p] != 0 && rayTo (points.positions[p], viewpoint).depth >= least;
   });
+}
+
+// Evidence for the front of a component, as the options ask for it. Refers to the normals of the points.
+FacingHints
+facingHints (const Points& points, const Request& request)
+{
+  FacingHints hints;
+  hints.wanted = request.options.facing;
+  if (!points.facing_normals.empty () &&
+      (hints.wanted == Facing::AUTO || hints.wanted == Facing::NORMALS))
+    hints.normals = &points.facing_normals;
+  const bool may_be_seen =
+      request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
+  if (may_be_seen && isSensorKnown (request.sensor_origin))
+    hints.sensor = points.fromCloud (request.sensor_origin);
+  return hints;
 }
 
 } // namespace
@@ -358,27 +347,4 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                    is_doubtful && is_given},
                   points, std::move (geometry), request, result);
 }
-
-std::optional<Problem>
-reconstructKnownView (const Points& points, const Request& request, Result& result)
-{
-  const ViewOptions& options = request.options.view;
-  const bool is_given = options.use == ViewUse::GIVEN;
-  Viewpoint viewpoint{points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
-  std::optional<Viewpoint> other;
-  if (is_given)
-    other = contradictingViewpoint (points, viewpoint, request);
-  else {
-    const bool is_told = isSensorKnown (request.sensor_origin);
-    const Sight sight = sightFrom (points, viewpoint, is_told, request.run);
-    if (sight == Sight::NO)
-      return {};
-    viewpoint.is_only_told = sight == Sight::POSSIBLE;
-  }
-  std::optional<Problem> problem = reconstructView (points, viewpoint, request, result);
-  if (problem && !*problem && other)
-    reportOtherViewpoint (points, *other, result.report);
-  return problem;
-}
-
 } // namespace pcl::floater

@@ -62,6 +62,21 @@ reportStacks (const Points& points, const Stacks& stacks, Report& report)
 }
 
 void
+reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_finding,
+               Report& report)
+{
+  report.scatter = valuesAt (points.cloud_index, scatter);
+  for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
+    if (std::binary_search (scatter.begin (), scatter.end (), points.stacked.of[i]))
+      report.scatter.push_back (points.stacked.cloud_index[i]);
+  std::sort (report.scatter.begin (), report.scatter.end ());
+  report.statistics.scatter_points = report.scatter.size ();
+  if (is_finding && !scatter.empty ())
+    addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, report.scatter.size (),
+                100.0 * report.scatter.size () / points.total ());
+}
+
+void
 reportNoise (const Noise& noise, bool denoised, Report& report)
 {
   report.statistics.noise = noise.median;

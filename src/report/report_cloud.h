@@ -27,6 +27,11 @@ reportOutliers (const std::vector<Index>& outliers, FindingId what, Report& repo
 void
 reportStacks (const Points& points, const Stacks& stacks, Report& report);
 
+/// Points on no surface, ascending, and those that lie on them; a finding if they are left out unasked.
+void
+reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_finding,
+               Report& report);
+
 /// The noise; warns if points are connected by their projections.
 void
 reportNoise (const Noise& noise, bool denoised, Report& report);
