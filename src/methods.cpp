@@ -34,23 +34,6 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
   return checkMesh (mesh, points, geometry.meshSpacing (), request.run);
 }
 
-// Points that were set aside get the point that stands for them as a neighbour, and its neighbours.
-void
-extendNeighbors (CsrLists& neighbors, const std::vector<Index>& of)
-{
-  std::size_t entries = neighbors.ids.size ();
-  for (const Index p : of)
-    entries += neighbors.row (p).size () + 1;
-  neighbors.ids.reserve (entries); // rows stay where they are
-  for (const Index p : of) {
-    const Row row = neighbors.row (p);
-    neighbors.ids.push_back (p);
-    for (const Index q : row)
-      neighbors.ids.push_back (q);
-    neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
-  }
-}
-
 // Adds the points that were set aside to the mesh, unless the point that stands for them is not in it;
 // extends the geometry but for the neighbours, and what was made anew. Returns all points.
 Points
@@ -89,10 +72,22 @@ repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeomet
   if (!repairsFlaws (request.options) ||
       (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
     return;
-  extendNeighbors (geometry.neighbors, points.stacked.of);
+  // They get the point that stands for them as a neighbour, and its neighbours.
+  CsrLists& neighbors = geometry.neighbors;
+  std::size_t entries = neighbors.ids.size ();
+  for (const Index p : points.stacked.of)
+    entries += neighbors.row (p).size () + 1;
+  neighbors.ids.reserve (entries); // rows stay where they are
+  for (const Index p : points.stacked.of) {
+    const Row row = neighbors.row (p);
+    neighbors.ids.push_back (p);
+    for (const Index q : row)
+      neighbors.ids.push_back (q);
+    neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
+  }
   repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.surface.finish,
               finish, request.run);
-  geometry.neighbors = {};
+  neighbors = {};
 }
 
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
