@@ -135,6 +135,17 @@ struct StepFinder
 
   static std::size_t numberOf (MeshEdge e) { return std::size_t{3} * e.triangle + e.side; }
 
+  // Where the ray of q meets a plane across the ray of p, from that point of p.
+  Vector2d placeBeside (Index p, Index q) const
+  {
+    if (rays.are_parallel)
+      return rays.places[q] - rays.places[p];
+    const Vector3d &across = rays.directions[p], &direction = rays.directions[q];
+    const Vector3d x = across.unitOrthogonal ();
+    const Vector3d y = x.cross (across); // towards the sensor, x to y is anti-clockwise
+    return Vector2d (x.dot (direction), y.dot (direction)) / across.dot (direction);
+  }
+
   // All edges that leave p, each with the triangle of p on its opposite side.
   void continueAround (Index p, std::vector<Index>& fan, std::vector<Index>& around,
                        std::vector<Vector2d>& places)
@@ -142,7 +153,7 @@ struct StepFinder
     view.fan (p, fan, around);
     places.clear ();
     for (const Index q : around)
-      places.push_back (rays.placeBeside (p, q));
+      places.push_back (placeBeside (p, q));
     for (std::size_t e = 0; e < fan.size (); ++e) {
       const Vector2d back = -places[e];
       for (std::size_t t = 0; t < fan.size (); ++t) {
@@ -251,7 +262,7 @@ struct StepFinder
     const std::array<Index, 2> ends{p, q}; // their rays
     const double change = changeOf (e);
     const std::array<Extension, 2> both = continuationsOf (e);
-    const double width = rays.distance (p, q) *
+    const double width = (rays.directions[p] - rays.directions[q]).norm () *
                          (rays.are_parallel ? 1.0 : std::min (rays.depths[p], rays.depths[q]));
     const double rise = std::abs (rays.depths[p] - rays.depths[q]);
     const bool is_steep = rise > STEEP * width;

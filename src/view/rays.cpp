@@ -74,15 +74,4 @@ makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunConte
   return rays;
 }
 
-Vector2d
-Rays::placeBeside (Index p, Index q) const
-{
-  if (are_parallel)
-    return places[q] - places[p];
-  const Vector3d& across = directions[p];
-  const Vector3d x = across.unitOrthogonal ();
-  const Vector3d y = x.cross (across); // towards the sensor, x to y is anti-clockwise
-  return Vector2d (x.dot (directions[q]), y.dot (directions[q])) / across.dot (directions[q]);
-}
-
 } // namespace pcl::floater

@@ -62,12 +62,6 @@ struct Rays
   std::vector<Vector2d> places;
   bool are_parallel = false;
   Vector3d parallel = Vector3d::Zero (); ///< along parallel rays, unit length
-
-  /// Angle between two rays, or distance between parallel ones.
-  double distance (Index p, Index q) const { return (directions[p] - directions[q]).norm (); }
-
-  /// Where the ray of q meets a plane across the ray of p, from that point of p.
-  Vector2d placeBeside (Index p, Index q) const;
 };
 
 /// O(n).
