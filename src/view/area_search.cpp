@@ -85,7 +85,7 @@ startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3
   parallelPoints<std::vector<double>> (run, places.size (), [&] (Index i, auto& angles) {
     places[i].cost = areaSpread (samples, places[i].viewpoint, angles);
   });
-  std::stable_sort (places.begin (), places.end (), isCheaper);
+  std::stable_sort (places.begin (), places.end ());
   return places;
 }
 
@@ -175,7 +175,7 @@ searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d
         patternSearch (places[k].viewpoint, cell, SMALLEST_STEP, box.center (), EVALUATIONS, cost);
   });
   places = keepApart (places, 4.0 * SMALLEST_STEP, places.size ());
-  std::stable_sort (places.begin (), places.end (), isCheaper);
+  std::stable_sort (places.begin (), places.end ());
   const double spread = spreadOfAreas (samples);
   if (places.front ().cost > EXPLAINED * spread)
     return {};

@@ -36,13 +36,9 @@ struct RatedViewpoint
 {
   double cost;
   Viewpoint viewpoint;
-};
 
-inline bool
-isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
-{
-  return a.cost < b.cost;
-}
+  bool operator<(const RatedViewpoint& other) const { return cost < other.cost; }
+};
 
 /// The first candidates without those near an earlier one.
 inline std::vector<RatedViewpoint>

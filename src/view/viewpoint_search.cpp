@@ -59,7 +59,7 @@ public:
       candidates[k] = {findRaySpread (positions_, patches, along, false, run_.withThreads (1)),
                        along};
     });
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    std::stable_sort (candidates.begin (), candidates.end ());
     if (candidates.front ().cost > LEAST * candidates[DIRECTIONS / 2].cost)
       return {};
     // Rays are evenly spaced from the right direction only; from others, less than from those
@@ -83,7 +83,7 @@ public:
       candidates[k].cost = findRaySpread (
           positions_, findRayPatches (positions_, place, one, few_patches_), place, true, one);
     });
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    std::stable_sort (candidates.begin (), candidates.end ());
     candidates.resize (std::min (candidates.size (), REFINED));
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
