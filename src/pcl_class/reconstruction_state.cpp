@@ -12,6 +12,7 @@
 #include <pcl/console/print.h>
 #include <pcl/features/impl/normal_3d.hpp>
 #include <pcl/features/normal_3d.h>
+#include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/impl/floater_reconstruction.hpp>
@@ -302,3 +303,5 @@ ReconstructionState::printOutcome (const std::string& class_name) const
 }
 
 } // namespace pcl::floater
+
+PCL_INSTANTIATE (FloaterReconstruction, PCL_XYZ_POINT_TYPES)
