@@ -191,7 +191,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   else {
     const StarSettings stars = starSettings (request.options);
     LocalPlanes planes = beginPlanes (net, std::move (geometry.neighbors), {}, stars, run);
-    planes = fitLocalPlanes (net, std::move (planes), stars, run, request.limits.planes);
+    planes = fitLocalPlanes (net, std::move (planes), stars, run, planeLimits (request.options));
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
   }
   SurfaceSettings settings;

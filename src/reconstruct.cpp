@@ -63,7 +63,7 @@ checkCurves (const Points& points, const LocalGeometry& geometry, const Request&
 {
   const Curves curves = findCurves (points.positions, -points.centre / points.scale, geometry,
                                     static_cast<std::size_t> (request.options.neighbors.k),
-                                    request.limits.planes.least_aspect, request.run);
+                                    PlaneLimits ().least_aspect, request.run);
   if (!curves.are_all)
     return {};
   const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
@@ -102,7 +102,7 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
   points.projected = projectNoisyPoints (points.positions, geometry.neighbors, noise, run);
   const StarSettings stars = starSettings (request.options);
   LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                                       request.limits.planes);
+                                       planeLimits (request.options));
   LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);
   keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
                  starAgreement (projected.stars, run), noise);
@@ -139,7 +139,7 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
   const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
-  const RowOf row_of = rowsBeside (points, planes, request.limits.planes);
+  const RowOf row_of = rowsBeside (points, planes, planeLimits (request.options));
   const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
   for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
     if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))
@@ -177,7 +177,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                         KnownStages* known, Result& result)
 {
   const Options& options = request.options;
-  const Limits& limits = request.limits;
   const RunContext& run = request.run;
   Report& report = result.report;
   const bool as_disc = asksForDisc (options), may_be_seen = mayBeSeen (options);
@@ -188,7 +187,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                            ? known->neighborsOfStacks ()
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   if (!as_disc && neighbors.rows () > 0)
-    reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
+    reportStacks (points, chooseNet (points, neighbors, settings, request.limits.net, run, &tree),
+                  report);
   if (known != nullptr) { // the others will be those of its planes
     neighbors = {};
     tree.reset ();
@@ -221,13 +221,13 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (known != nullptr)
     begun = known->begunStars ();
   if (may_be_seen) {
-    const RowOf row_of = rowsBeside (points, planes, limits.planes);
+    const RowOf row_of = rowsBeside (points, planes, planeLimits (options));
     samples = takePatchSamples (points.positions, row_of);
     if (const std::optional<Problem> problem = reconstructFrom (row_of, SearchReason::UNEVEN))
       return *problem;
   }
   if (known == nullptr)
-    planes = fitLocalPlanes (points, std::move (planes), stars, run, limits.planes);
+    planes = fitLocalPlanes (points, std::move (planes), stars, run, planeLimits (options));
   const bool is_certain = options.scatter == ScatterPolicy::AUTO; // what is dropped as scatter
   const bool drops_scatter = options.scatter == ScatterPolicy::DROP || (is_certain && !as_disc);
   Noise noise;
@@ -270,7 +270,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                   "grid, use a method that smooths, such as Poisson reconstruction, or keep the "
                   "scatter"};
     planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                             limits.planes);
+                             planeLimits (options));
     noise = measureNoise (points.positions, planes.neighbors, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
     noise.is_strong = isStrongNow (DISTURBED);
@@ -303,7 +303,7 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
   Points points;
   if (known != nullptr)
     points = known->points (report);
-  else if (Problem problem = takePoints (input, request, points, report))
+  else if (Problem problem = takePoints (input, options, request.run, points, report))
     return problem;
   if (Problem problem = checkPoints (points))
     return problem;
@@ -323,14 +323,13 @@ reconstruct (Input input, const Options& options, const Limits& limits, KnownSta
   Problem problem;
   try {
     const Options effective = effectiveOptions (options);
-    const Limits effective_limits = effectiveLimits (limits, options);
     RunMonitor monitor (
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics, asksForDisc (effective));
     const RunContext context (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();
-    problem = reconstructAny (input, {effective, effective_limits, context, input.sensor_origin},
-                              known, result);
+    problem =
+        reconstructAny (input, {effective, limits, context, input.sensor_origin}, known, result);
     describeFindings (result.report);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))

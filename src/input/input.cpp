@@ -118,10 +118,9 @@ checkFacing (const Input& input, const Options& options)
 }
 
 Problem
-takePoints (Input& input, const Request& request, Points& points, Report& report)
+takePoints (Input& input, const Options& options, const RunContext& run, Points& points,
+            Report& report)
 {
-  const Options& options = request.options;
-  const RunContext& run = request.run;
   report.statistics.cloud_points = input.cloud_size;
   report.statistics.selected_points = input.positions.size ();
   if (Problem problem = checkOptions (options))

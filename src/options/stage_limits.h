@@ -14,7 +14,6 @@ namespace pcl::floater {
 struct Limits
 {
   NetLimits net;
-  PlaneLimits planes;
   SurfaceLimits surface;
   ViewLimits view;
 };
@@ -39,6 +38,18 @@ inline bool
 asksForDisc (const Options& options)
 {
   return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
+}
+
+/// With DiscOptions::as_published, tangent planes use all neighbours (section 4.1).
+inline PlaneLimits
+planeLimits (const Options& options)
+{
+  PlaneLimits limits;
+  if (options.disc.as_published) {
+    limits.core_points = std::numeric_limits<std::size_t>::max ();
+    limits.sheet_sine = 1.0;
+  }
+  return limits;
 }
 
 /// Settings for the stars of the points.

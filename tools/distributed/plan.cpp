@@ -192,11 +192,9 @@ planStep (const Job& job, const Store& store)
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
   const RunContext run (job.join_threads);
   const Options options = effectiveOptions (line.options);
-  const Limits limits = effectiveLimits ({}, line.options);
   Points points;
   Report report;
-  const std::array<double, 3> sensor_origin = input.sensor_origin;
-  Problem problem = takePoints (input, {options, limits, run, sensor_origin}, points, report);
+  Problem problem = takePoints (input, options, run, points, report);
   if (!problem)
     problem = checkPoints (points);
   if (problem) {
@@ -213,7 +211,7 @@ planStep (const Job& job, const Store& store)
       job.blocks > 0 ? job.blocks : (points.size () + POINTS_OF_BLOCK - 1) / POINTS_OF_BLOCK;
   plan.selected_points = report.statistics.selected_points;
   plan.scale = points.scale;
-  plan.sensor_origin = sensor_origin;
+  plan.sensor_origin = input.sensor_origin;
   Eigen::Map<Eigen::Vector3d> (plan.centre.data ()) = points.centre;
   plan.id = planId (plan.inputs, plan.parameters, job.blocks, plan.arguments);
   writePoints (store, POINTS, plan.id, points, report.outliers);
