@@ -3,7 +3,6 @@
 // What a report says of the cloud.
 #pragma once
 
-#include "core/types.h"
 #include "points/coordinate_grid.h"
 #include "points/net.h"
 #include "points/noise.h"

@@ -229,8 +229,7 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
   SystemStatistics& figures = report.statistics;
   figures = disc.figures;
   if (figures.nnz_matrix > 0)
-    figures.fill_in =
-        static_cast<double> (figures.nnz_factors) / static_cast<double> (figures.nnz_matrix);
+    figures.fill_in = static_cast<double> (figures.nnz_factors) / figures.nnz_matrix;
   if (disc.uv.empty ())
     return;
   const Vector2d nowhere = Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());

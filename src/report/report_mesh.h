@@ -5,7 +5,6 @@
 
 #include "consensus/consensus_method.h"
 #include "core/problem.h"
-#include "core/types.h"
 #include "floater/floater_method.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"

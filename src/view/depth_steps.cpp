@@ -73,8 +73,7 @@ struct StepFinder
   const RunContext& run;
   double span = 1.0; // of the depths
   double largest_cosine = std::cos (TURN * DEGREE);
-  std::vector<Extension> continuations =
-      {}; // of each edge, by 3 triangle + side, from its first end
+  std::vector<Extension> continuations = {}; // of each edge from its first end, by numberOf ()
   std::vector<StepEdge> edges = {};
 
   Flags find ()

@@ -31,11 +31,11 @@ farFrom (const Viewpoint& near, const Vector3d& middle)
 /// The ray from a viewpoint to a point.
 struct Ray
 {
-  Vector3d direction; ///< unit vector; for parallel rays, the projection of the point on the
-                      ///< plane through the origin perpendicular to the rays. Distances
-                      ///< between directions approximate angles, or are distances. Zero if
-                      ///< the point is the viewpoint
-  double depth;       ///< along the ray
+  /// Unit vector, zero if the point is the viewpoint; for parallel rays, the projection of the point
+  /// on the plane through the origin across them. Distances between directions approximate angles, or
+  /// are distances.
+  Vector3d direction;
+  double depth; ///< along the ray
 };
 
 Ray
