@@ -96,9 +96,14 @@ public:
         if (!found && in_rows)
           takeBetter (refineBy (candidate.viewpoint, AREA_ERROR, Measure::DENSITY), found);
       }
-      if (found && isDetermined (*found))
-        return isAsFar (found->viewpoint) ? farFrom (found->viewpoint, box_.center ())
-                                          : found->viewpoint;
+      if (found && isDetermined (*found)) {
+        // Rays are as even as parallel ones if within the cloud, whose diagonal is 1, their spacing
+        // changes by less than the spread that counts as even. The place may be on the wrong side.
+        const Viewpoint& seen_from = found->viewpoint;
+        const bool is_as_far =
+            !seen_from.is_far && (seen_from.place - box_.center ()).norm () * EVEN > 1.0;
+        return is_as_far ? farFrom (seen_from, box_.center ()) : seen_from;
+      }
     }
     return {};
   }
@@ -153,20 +158,11 @@ private:
                                  FARTHER * evidenceAt (farFrom (place, box_.center ())).ray_spread);
   }
 
-  // Whether rays from there are as even as parallel ones: within the cloud, whose diagonal is 1, their
-  // spacing changes by less than the spread that counts as even. Such a place may be on the wrong side.
-  bool isAsFar (const Viewpoint& found) const
-  {
-    return !found.is_far && (found.place - box_.center ()).norm () * EVEN > 1.0;
-  }
-
-  // Samples for the plane around a viewpoint: a tenth, as few as a plane needs.
-  static constexpr std::size_t AROUND = 50;
-
   // Mirror image of a viewpoint at the plane of the samples around it. A scanner low above the
   // ground is closer to its image than the precision of a descent by areas.
   Viewpoint mirrored (const Viewpoint& viewpoint) const
   {
+    constexpr std::size_t AROUND = 50; // samples: a tenth, as few as a plane needs
     std::vector<Vector3d> offsets;
     for (const AreaSample& sample : samples_)
       offsets.emplace_back (sample.position - viewpoint.place);
