@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "methods.h"
 
-#include "cloud_geometry.h"
 #include "core/order_statistics.h"
 #include "input/input.h"
 #include "mesh/check.h"
@@ -32,24 +31,7 @@ examine (const TriangleMesh& mesh, const Points& points, const LocalGeometry& ge
          const Request& request)
 {
   request.run.beginStage (Stage::CHECK);
-  return checkMesh (mesh, points, geometry.meshSpacing (), request.run, request.limits.check);
-}
-
-// Points that were set aside get the point that stands for them as a neighbour, and its neighbours.
-void
-extendNeighbors (CsrLists& neighbors, const std::vector<Index>& of)
-{
-  std::size_t entries = neighbors.ids.size ();
-  for (const Index p : of)
-    entries += neighbors.row (p).size () + 1;
-  neighbors.ids.reserve (entries); // rows stay where they are
-  for (const Index p : of) {
-    const Row row = neighbors.row (p);
-    neighbors.ids.push_back (p);
-    for (const Index q : row)
-      neighbors.ids.push_back (q);
-    neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
-  }
+  return checkMesh (mesh, points, geometry.meshSpacing (), request.run);
 }
 
 // Adds the points that were set aside to the mesh, unless the point that stands for them is not in it;
@@ -90,10 +72,22 @@ repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeomet
   if (!repairsFlaws (request.options) ||
       (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
     return;
-  extendNeighbors (geometry.neighbors, points.stacked.of);
+  // They get the point that stands for them as a neighbour, and its neighbours.
+  CsrLists& neighbors = geometry.neighbors;
+  std::size_t entries = neighbors.ids.size ();
+  for (const Index p : points.stacked.of)
+    entries += neighbors.row (p).size () + 1;
+  neighbors.ids.reserve (entries); // rows stay where they are
+  for (const Index p : points.stacked.of) {
+    const Row row = neighbors.row (p);
+    neighbors.ids.push_back (p);
+    for (const Index q : row)
+      neighbors.ids.push_back (q);
+    neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
+  }
   repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.surface.finish,
               finish, request.run);
-  geometry.neighbors = {};
+  neighbors = {};
 }
 
 // A mesh that was laid out as a disc is one, and its boundary is the loop.
@@ -163,8 +157,8 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   if (asksForTrimming (request.options.trimming) && found.isManifold ()) {
     trimming =
         trimMesh (mesh, points, geometry.meshSpacing (), request.options.trimming, request.run);
-    std::vector<Index> unused = std::move (found.unused); // without points that trimming leaves
-                                                          // unused
+    // Without points that trimming leaves unused.
+    std::vector<Index> unused = std::move (found.unused);
     found = examine (mesh, points, geometry, request);
     if (!report.is_view)
       checkCrossing (mesh.triangles, points, request.run, found);
@@ -195,9 +189,9 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   if (net.stacked.of.empty ())
     net.projected = points.projected;
   else {
-    const StarSettings stars = starSettings (request);
+    const StarSettings stars = starSettings (request.options);
     LocalPlanes planes = beginPlanes (net, std::move (geometry.neighbors), {}, stars, run);
-    planes = fitLocalPlanes (net, std::move (planes), stars, run, request.limits.planes);
+    planes = fitLocalPlanes (net, std::move (planes), stars, run, planeLimits (request.options));
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
   }
   SurfaceSettings settings;
@@ -237,48 +231,6 @@ findLoop (const Points& points, const LocalGeometry& geometry, const Request& re
   return boundary;
 }
 
-// The given viewpoint, or the origin of the sensor if rays or outlines tell that it was there.
-std::optional<Viewpoint>
-knownViewpoint (const Points& points, const Request& request)
-{
-  const ViewOptions& options = request.options.view;
-  const bool is_given = options.use == ViewUse::GIVEN;
-  const Viewpoint viewpoint{
-      points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
-  const Sight sight =
-      is_given ? Sight::CERTAIN
-               : sightFrom (points, viewpoint, isSensorKnown (request.sensor_origin), request.run);
-  if (sight == Sight::NO)
-    return {};
-  return Viewpoint{viewpoint.place, false, sight == Sight::POSSIBLE};
-}
-
-// If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
-// that one. The given one is then likely to be wrong. First the sensor origin in the file is
-// tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
-// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
-// otherwise the time of a search.
-std::optional<Viewpoint>
-contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
-{
-  const RunContext& run = request.run;
-  const auto isSeen = [&] (const Viewpoint& viewpoint) {
-    return sightFrom (points, viewpoint, false, run) != Sight::NO;
-  };
-  if (isSeen (given))
-    return {};
-  const Viewpoint of_file{points.fromCloud (request.sensor_origin)};
-  if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
-    return of_file;
-  const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
-  const RowOf row_of = rowsBeside (points, planes, request.limits.planes);
-  const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
-  for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
-    if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))
-      return found;
-  return {};
-}
-
 // Unused points at depth steps, which contradict the view; not those alone in gaps, nor those on
 // what bears the sensor, which are no part of the scene.
 std::size_t
@@ -290,9 +242,25 @@ countContradictions (const Points& points, const Viewpoint& viewpoint, const Vie
     depths.push_back (rayTo (position, viewpoint).depth);
   const double least =
       viewpoint.is_far ? -std::numeric_limits<double>::infinity () : AT_SENSOR * median (depths);
-  return static_cast<std::size_t> (std::count_if (unused.begin (), unused.end (), [&] (Index p) {
+  return std::count_if (unused.begin (), unused.end (), [&] (Index p) {
     return surface.is_at_step[p] != 0 && rayTo (points.positions[p], viewpoint).depth >= least;
-  }));
+  });
+}
+
+// Evidence for the front of a component, as the options ask for it. Refers to the normals of the points.
+FacingHints
+facingHints (const Points& points, const Request& request)
+{
+  FacingHints hints;
+  hints.wanted = request.options.facing;
+  if (!points.facing_normals.empty () &&
+      (hints.wanted == Facing::AUTO || hints.wanted == Facing::NORMALS))
+    hints.normals = &points.facing_normals;
+  const bool may_be_seen =
+      request.options.view.use != ViewUse::NEVER || hints.wanted == Facing::VIEWPOINT;
+  if (may_be_seen && isSensorKnown (request.sensor_origin))
+    hints.sensor = points.fromCloud (request.sensor_origin);
+  return hints;
 }
 
 } // namespace
@@ -308,7 +276,7 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                       ? "asked for"
                                       : "its boundary loop is given";
   Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
-                        {options, starSettings (request), request.limits.surface.finish,
+                        {options, starSettings (options), request.limits.surface.finish,
                          facingHints (points, request)},
                         request.run);
   reportDisc (points, disc, result.report);
@@ -374,20 +342,4 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                    is_doubtful && is_given},
                   points, std::move (geometry), request, result);
 }
-
-std::optional<Problem>
-reconstructKnownView (const Points& points, const Request& request, Result& result)
-{
-  const std::optional<Viewpoint> viewpoint = knownViewpoint (points, request);
-  if (!viewpoint)
-    return {};
-  std::optional<Viewpoint> other;
-  if (request.options.view.use == ViewUse::GIVEN)
-    other = contradictingViewpoint (points, *viewpoint, request);
-  std::optional<Problem> problem = reconstructView (points, *viewpoint, request, result);
-  if (problem && !*problem && other)
-    reportOtherViewpoint (points, *other, result.report);
-  return problem;
-}
-
 } // namespace pcl::floater

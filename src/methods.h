@@ -29,9 +29,4 @@ std::optional<Problem>
 reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
                  Result& result);
 
-/// Like reconstructView (), for the given viewpoint, or the origin of the sensor if the points are evenly
-/// spaced from there; nothing if there is none. Warns if a given one may be wrong.
-std::optional<Problem>
-reconstructKnownView (const Points& points, const Request& request, Result& result);
-
 } // namespace pcl::floater

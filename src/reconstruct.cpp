@@ -5,14 +5,15 @@
 // is known is connected as its sensor saw it, without neighbours.
 #include "reconstruct.h"
 
-#include "cloud_geometry.h"
 #include "input/input.h"
-#include "local/stars.h"
+#include "local/curves.h"
+#include "local/scatter.h"
 #include "methods.h"
 #include "options/check_options.h"
+#include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"
-#include "report/verdict.h"
+#include "report/report_mesh.h"
 
 namespace pcl::floater {
 namespace {
@@ -33,9 +34,141 @@ constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as othe
 bool
 isOpen (const Stars& stars)
 {
-  const auto open = static_cast<double> (
-      std::count_if (stars.open.begin (), stars.open.end (), [] (auto is) { return is != 0; }));
-  return 16.0 * open * open >= static_cast<double> (stars.open.size ());
+  const double open = std::count (stars.open.begin (), stars.open.end (), 1);
+  return 16.0 * open * open >= stars.open.size ();
+}
+
+// The points that are not on the user's loop. Equal points are represented by one of them.
+std::vector<Index>
+exceptLoop (std::vector<Index> found, const Points& points, const Options& options)
+{
+  std::vector<Index> loop = options.disc.boundary.loop;
+  for (Index& index : loop) {
+    const auto duplicate = std::lower_bound (points.duplicates.begin (), points.duplicates.end (),
+                                             std::array<Index, 2>{index, 0});
+    if (duplicate != points.duplicates.end () && (*duplicate)[0] == index)
+      index = (*duplicate)[1];
+  }
+  std::sort (loop.begin (), loop.end ());
+  const auto is_given = [&] (Index p) {
+    return std::binary_search (loop.begin (), loop.end (), points.cloud_index[p]);
+  };
+  found.erase (std::remove_if (found.begin (), found.end (), is_given), found.end ());
+  return found;
+}
+
+// DEGENERATE if the cloud is curves that are too far apart for a surface.
+Problem
+checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
+{
+  const Curves curves = findCurves (points.positions, -points.centre / points.scale, geometry,
+                                    static_cast<std::size_t> (request.options.neighbors.k),
+                                    PlaneLimits ().least_aspect, request.run);
+  if (!curves.are_all)
+    return {};
+  const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
+                                                     " times as far apart as the points along them"
+                                               : "too far apart";
+  return {RunStatus::DEGENERATE,
+          "the points lie along curves, such as profiles of a scanner, " + apart +
+              ": for a surface, profiles should be at most 10 times as far apart as their points. "
+              "Take more profiles, or fewer points of each (a voxel grid thins them out)"};
+}
+
+// The neighbours of all points, and their spacing, for fitLocalPlanes ().
+LocalPlanes
+searchPlanes (const Points& points, const NeighborSettings& settings, const Request& request)
+{
+  const RunContext& run = request.run;
+  run.beginStage (Stage::NEIGHBORS);
+  std::optional<KdTree> tree; // searched again for the stars of a surface
+  CsrLists neighbors =
+      findNeighbors (points, settings, run, asksForDisc (request.options) ? nullptr : &tree);
+  run.beginStage (Stage::STARS);
+  return beginPlanes (points, std::move (neighbors), std::move (tree),
+                      starSettings (request.options), run);
+}
+
+// Beyond TW 385: projects noisy points on local planes, by which they are connected, where noise
+// explains the disagreement of their stars. The mesh has triangles only, so the user's points stay
+// unchanged.
+// \param noise in: to project; out: of the projected points
+// \return the geometry around each projected point
+LocalGeometry
+projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
+              const NeighborSettings& settings, const Request& request)
+{
+  const RunContext& run = request.run;
+  points.projected = projectNoisyPoints (points.positions, geometry.neighbors, noise, run);
+  const StarSettings stars = starSettings (request.options);
+  LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
+                                       planeLimits (request.options));
+  LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);
+  keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
+                 starAgreement (projected.stars, run), noise);
+  if (noise.noisy_points == 0) {
+    points.projected.clear ();
+    return geometry;
+  }
+  std::vector<Index> taken_back;
+  for (Index p = 0; p < points.size (); ++p)
+    if (noise.at_point[p] <= 0.0F && points.projected[p] != points.positions[p]) {
+      points.projected[p] = points.positions[p];
+      taken_back.push_back (p);
+    }
+  if (!taken_back.empty ())
+    copyRows (geometry, taken_back, projected);
+  return projected;
+}
+
+// If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
+// that one. The given one is then likely to be wrong. First the sensor origin in the file is
+// tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
+// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
+// otherwise the time of a search.
+std::optional<Viewpoint>
+contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
+{
+  const RunContext& run = request.run;
+  const auto isSeen = [&] (const Viewpoint& viewpoint) {
+    return sightFrom (points, viewpoint, false, run) != Sight::NO;
+  };
+  if (isSeen (given))
+    return {};
+  const Viewpoint of_file{points.fromCloud (request.sensor_origin)};
+  if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
+    return of_file;
+  const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
+  const RowOf row_of = rowsBeside (points, planes, planeLimits (request.options));
+  const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
+  for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
+    if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))
+      return found;
+  return {};
+}
+
+// Like reconstructView (), for the given viewpoint, or the origin of the sensor if the points are evenly
+// spaced from there; nothing if there is none. Warns if a given one may be wrong.
+std::optional<Problem>
+reconstructKnownView (const Points& points, const Request& request, Result& result)
+{
+  const ViewOptions& options = request.options.view;
+  const bool is_given = options.use == ViewUse::GIVEN;
+  Viewpoint viewpoint{points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
+  std::optional<Viewpoint> other;
+  if (is_given)
+    other = contradictingViewpoint (points, viewpoint, request);
+  else {
+    const bool is_told = isSensorKnown (request.sensor_origin);
+    const Sight sight = sightFrom (points, viewpoint, is_told, request.run);
+    if (sight == Sight::NO)
+      return {};
+    viewpoint.is_only_told = sight == Sight::POSSIBLE;
+  }
+  std::optional<Problem> problem = reconstructView (points, viewpoint, request, result);
+  if (problem && !*problem && other)
+    reportOtherViewpoint (points, *other, result.report);
+  return problem;
 }
 
 // Reconstructs a cloud whose viewpoint is unknown, or that is not a single scan.
@@ -44,7 +177,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                         KnownStages* known, Result& result)
 {
   const Options& options = request.options;
-  const Limits& limits = request.limits;
   const RunContext& run = request.run;
   Report& report = result.report;
   const bool as_disc = asksForDisc (options), may_be_seen = mayBeSeen (options);
@@ -55,13 +187,17 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                            ? known->neighborsOfStacks ()
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   if (!as_disc && neighbors.rows () > 0)
-    reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
+    reportStacks (points, chooseNet (points, neighbors, settings, request.limits.net, run, &tree),
+                  report);
   if (known != nullptr) { // the others will be those of its planes
     neighbors = {};
     tree.reset ();
   }
-  const std::vector<Index> outliers =
-      known != nullptr ? known->outliers () : outliersOf (points, neighbors, request);
+  std::vector<Index> outliers;
+  if (known != nullptr)
+    outliers = known->outliers ();
+  else if (options.remove_outliers)
+    outliers = exceptLoop (findOutliers (points.positions, neighbors, run), points, options);
   if (!outliers.empty ()) {
     reportOutliers (removePoints (points, outliers), FindingId::OUTLIERS, report);
     report.statistics.working_points = points.total ();
@@ -72,7 +208,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (Problem problem = checkPoints (points))
     return problem;
   run.beginStage (Stage::STARS);
-  const StarSettings stars = starSettings (request);
+  const StarSettings stars = starSettings (options);
   LocalPlanes planes =
       known != nullptr ? known->planes ()
                        : beginPlanes (points, std::move (neighbors), std::move (tree), stars, run);
@@ -85,16 +221,17 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (known != nullptr)
     begun = known->begunStars ();
   if (may_be_seen) {
-    const RowOf row_of = rowsBeside (points, planes, limits.planes);
+    const RowOf row_of = rowsBeside (points, planes, planeLimits (options));
     samples = takePatchSamples (points.positions, row_of);
     if (const std::optional<Problem> problem = reconstructFrom (row_of, SearchReason::UNEVEN))
       return *problem;
   }
   if (known == nullptr)
-    planes = fitLocalPlanes (points, std::move (planes), stars, run, limits.planes);
-  const bool is_measured = options.denoise || dropsScatter (options);
+    planes = fitLocalPlanes (points, std::move (planes), stars, run, planeLimits (options));
+  const bool is_certain = options.scatter == ScatterPolicy::AUTO; // what is dropped as scatter
+  const bool drops_scatter = options.scatter == ScatterPolicy::DROP || (is_certain && !as_disc);
   Noise noise;
-  if (is_measured)
+  if (options.denoise || drops_scatter)
     noise = measureNoise (points.positions, planes.neighbors, run);
   LocalGeometry geometry =
       makeLocalGeometry (points, std::move (planes), stars, run, std::move (begun));
@@ -106,8 +243,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
            isStrong (noise, starAgreement (geometry.stars, run), disturbed_share);
   };
   noise.is_strong = isStrongNow (DISTURBED);
-  const std::vector<Index> scatter =
-      is_measured ? scatterOf (points, geometry, noise, request) : std::vector<Index>{};
+  std::vector<Index> scatter;
+  if (options.denoise || drops_scatter)
+    scatter = findScatter (geometry, noise, is_certain, run);
+  if (drops_scatter)
+    scatter = exceptLoop (std::move (scatter), points, options);
   // Errors along the rays of a scan look like noise and scatter; of what is open, the sensor tells
   // the front.
   const bool looks_noisy = noise.is_strong || !scatter.empty ();
@@ -115,7 +255,10 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     if (const std::optional<Problem> problem = reconstructFrom (
             [&] (Index p) { return geometry.neighbors.row (p); }, SearchReason::OPEN))
       return *problem;
-  if (takeScatter (points, scatter, options, report)) {
+  reportScatter (points, scatter, drops_scatter && is_certain, report);
+  if (drops_scatter && !scatter.empty ()) {
+    removePoints (points, scatter);
+    report.statistics.working_points = points.total ();
     geometry = {};
     if (checkPoints (points) || scatter.size () >= NEARLY_ALL * points.size ())
       return {RunStatus::DEGENERATE,
@@ -127,7 +270,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                   "grid, use a method that smooths, such as Poisson reconstruction, or keep the "
                   "scatter"};
     planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                             limits.planes);
+                             planeLimits (options));
     noise = measureNoise (points.positions, planes.neighbors, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
     noise.is_strong = isStrongNow (DISTURBED);
@@ -160,7 +303,7 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
   Points points;
   if (known != nullptr)
     points = known->points (report);
-  else if (Problem problem = takePoints (input, request, points, report))
+  else if (Problem problem = takePoints (input, options, request.run, points, report))
     return problem;
   if (Problem problem = checkPoints (points))
     return problem;
@@ -180,14 +323,13 @@ reconstruct (Input input, const Options& options, const Limits& limits, KnownSta
   Problem problem;
   try {
     const Options effective = effectiveOptions (options);
-    const Limits effective_limits = effectiveLimits (limits, options);
     RunMonitor monitor (
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics, asksForDisc (effective));
     const RunContext context (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();
-    problem = reconstructAny (input, {effective, effective_limits, context, input.sensor_origin},
-                              known, result);
+    problem =
+        reconstructAny (input, {effective, limits, context, input.sensor_origin}, known, result);
     describeFindings (result.report);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))

@@ -36,7 +36,7 @@ try {
   }
 }
 catch (...) {
-  return {RunStatus::OUT_OF_MEMORY, NO_MEMORY};
+  return {RunStatus::OUT_OF_MEMORY, "out of memory"}; // so short that it allocates none
 }
 
 } // namespace pcl::floater

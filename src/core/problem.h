@@ -19,11 +19,8 @@ struct Problem
   explicit operator bool () const { return status != RunStatus::SUCCESS; }
 };
 
-/// Short enough that a string does not allocate memory for it.
-constexpr const char* NO_MEMORY = "out of memory";
-
-/// The problem of the exception that is being handled. To be called in a handler. OUT_OF_MEMORY and
-/// NO_MEMORY if there is no memory for the message.
+/// The problem of the exception that is being handled. To be called in a handler. OUT_OF_MEMORY if
+/// there is no memory for the message.
 Problem
 problemOfException () noexcept;
 

@@ -66,11 +66,9 @@ cleanInput (Input& input, const Options& options, const RunContext& run, Report&
     return count;
   };
   if (const double count = leaveOut (invalid.pixels); count > 0.0) {
-    constexpr double PERCENT = 100.0;
     const Vector3d place = invalid.place + shift;
     addFinding (report, FindingId::INVALID_PIXELS, {}, {}, count,
-                PERCENT * count / static_cast<double> (input.positions.size ()), place.x (),
-                place.y (), place.z ());
+                100.0 * count / input.positions.size (), place.x (), place.y (), place.z ());
   }
   if (const double count = leaveOut (invalid.cells); count > 0.0)
     addFinding (report, FindingId::INVALID_CELLS, {}, {}, count, invalid.height, invalid.gap);
@@ -80,15 +78,13 @@ cleanInput (Input& input, const Options& options, const RunContext& run, Report&
   if (found.isolated.empty () && found.unbearable.empty ())
     return {};
   const bool are_few = LARGEST_SHARE * found.unbearable.size () <= input.positions.size ();
-  std::vector<Index> rows;
-  for (const Index row : found.unbearable) {
+  for (const Index row : found.unbearable)
     if (!are_few || !mayGo (row))
       return {RunStatus::DEGENERATE,
               placeText (input.cloud_index[row], input.positions[row]) +
                   " is so far away that double precision cannot hold it together with the others: "
                   "take such points out of the cloud, or have outliers left out"};
-    rows.push_back (row);
-  }
+  std::vector<Index> rows = found.unbearable;
   std::copy_if (found.isolated.begin (), found.isolated.end (), std::back_inserter (rows), mayGo);
   std::sort (rows.begin (), rows.end ());
   const std::vector<Index> outliers = valuesAt (input.cloud_index, rows);
@@ -122,10 +118,9 @@ checkFacing (const Input& input, const Options& options)
 }
 
 Problem
-takePoints (Input& input, const Request& request, Points& points, Report& report)
+takePoints (Input& input, const Options& options, const RunContext& run, Points& points,
+            Report& report)
 {
-  const Options& options = request.options;
-  const RunContext& run = request.run;
   report.statistics.cloud_points = input.cloud_size;
   report.statistics.selected_points = input.positions.size ();
   if (Problem problem = checkOptions (options))

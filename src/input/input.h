@@ -27,6 +27,7 @@ checkFacing (const Input& input, const Options& options);
 ///     the cloud and given once; DEGENERATE if a remaining point is too far from the others for
 ///     double precision
 Problem
-takePoints (Input& input, const Request& request, Points& points, Report& report);
+takePoints (Input& input, const Options& options, const RunContext& run, Points& points,
+            Report& report);
 
 } // namespace pcl::floater

@@ -45,42 +45,6 @@ numberText (double number)
   return text;
 }
 
-// What each method accepts, and what a hole policy needs.
-Problem
-checkTogether (const Options& options)
-{
-  const HolePolicy holes = options.holes.policy;
-  const auto& viewpoint = options.view.viewpoint;
-  const bool is_surface = options.topology == Topology::SURFACE;
-  const bool is_loop_given = !options.disc.boundary.loop.empty ();
-  const bool is_view_given = options.view.use == ViewUse::GIVEN;
-  struct Rule
-  {
-    bool is_broken;
-    const char *option, *why;
-  };
-  const Rule rules[] = {
-      {holes == HolePolicy::BY_SIZE && options.holes.largest_hole == 0.0, "holes",
-       "by size need the size of the largest hole to fill"},
-      {options.topology == Topology::DISC && holes != HolePolicy::AUTO &&
-           holes != HolePolicy::KEEP_LARGEST,
-       "holes",
-       "of a disc must be auto or keep-largest: it has one boundary loop and no holes; choose "
-       "another topology"},
-      {is_surface && is_loop_given, "topology", "must be disc or auto if a boundary loop is given"},
-      {is_surface && options.disc.as_published, "topology",
-       "must be disc or auto: the method of TW 385 makes discs only"},
-      {is_view_given && !std::all_of (viewpoint.begin (), viewpoint.end (),
-                                      [] (double x) { return std::isfinite (x); }),
-       "viewpoint", "must have finite coordinates"},
-      {is_view_given && (options.topology == Topology::DISC || is_loop_given), "viewpoint",
-       "is of no use for a disc, which is laid out without it"}};
-  for (const Rule& rule : rules)
-    if (rule.is_broken)
-      return refused (rule.option, rule.why);
-  return {};
-}
-
 // Why an option has no effect, or nullptr.
 const char*
 reasonOf (UsedFor use, const Options& options, const Report& report)
@@ -158,17 +122,6 @@ effectiveOptions (const Options& options)
   return effective;
 }
 
-Limits
-effectiveLimits (const Limits& limits, const Options& options)
-{
-  Limits effective = limits;
-  if (!options.disc.as_published)
-    return effective;
-  effective.planes.core_points = std::numeric_limits<std::size_t>::max ();
-  effective.planes.sheet_sine = 1.0;
-  return effective;
-}
-
 void
 choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given)
 {
@@ -197,9 +150,37 @@ checkOptions (const Options& options)
   visitOptions (options, ranges);
   if (ranges.problem)
     return ranges.problem;
-  if (Problem problem = checkTogether (options))
-    return problem;
-  if (!options.disc.boundary.loop.empty () && options.disc.boundary.loop.size () < 3)
+  // What each method accepts, and what a hole policy needs.
+  const HolePolicy holes = options.holes.policy;
+  const auto& viewpoint = options.view.viewpoint;
+  const bool is_surface = options.topology == Topology::SURFACE;
+  const bool is_loop_given = !options.disc.boundary.loop.empty ();
+  const bool is_view_given = options.view.use == ViewUse::GIVEN;
+  struct Rule
+  {
+    bool is_broken;
+    const char *option, *why;
+  };
+  const Rule rules[] = {
+      {holes == HolePolicy::BY_SIZE && options.holes.largest_hole == 0.0, "holes",
+       "by size need the size of the largest hole to fill"},
+      {options.topology == Topology::DISC && holes != HolePolicy::AUTO &&
+           holes != HolePolicy::KEEP_LARGEST,
+       "holes",
+       "of a disc must be auto or keep-largest: it has one boundary loop and no holes; choose "
+       "another topology"},
+      {is_surface && is_loop_given, "topology", "must be disc or auto if a boundary loop is given"},
+      {is_surface && options.disc.as_published, "topology",
+       "must be disc or auto: the method of TW 385 makes discs only"},
+      {is_view_given && !std::all_of (viewpoint.begin (), viewpoint.end (),
+                                      [] (double x) { return std::isfinite (x); }),
+       "viewpoint", "must have finite coordinates"},
+      {is_view_given && (options.topology == Topology::DISC || is_loop_given), "viewpoint",
+       "is of no use for a disc, which is laid out without it"}};
+  for (const Rule& rule : rules)
+    if (rule.is_broken)
+      return refused (rule.option, rule.why);
+  if (is_loop_given && options.disc.boundary.loop.size () < 3)
     return {RunStatus::INVALID_LOOP, "the given boundary loop has fewer than 3 points"};
   return {};
 }

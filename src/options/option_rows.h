@@ -145,126 +145,121 @@ visitOptions (AnyOptions& options, Visitor&& visit)
   using namespace option_group;
   auto& disc = options.disc;
   auto& trimming = options.trimming;
-  visit (OptionRow{"threads", GENERAL, "setNumberOfThreads", UsedFor::ALL,
-                   "threads, 0: one for each core; the result is the same", "j"},
+  visit ({"threads", GENERAL, "setNumberOfThreads", UsedFor::ALL,
+          "threads, 0: one for each core; the result is the same", "j"},
          options.threads, NumberRange{0, NO_LIMIT});
-  visit (OptionRow{"method", KIND, "setDiscOptions (DiscOptions::tw385 ())", UsedFor::ALL,
-                   "tw385: a disc by the method of that report and nothing else: no outliers, "
-                   "noise, sheet filter, flips or repair"},
+  visit ({"method", KIND, "setDiscOptions (DiscOptions::tw385 ())", UsedFor::ALL,
+          "tw385: a disc by the method of that report and nothing else: no outliers, noise, sheet "
+          "filter, flips or repair"},
          disc.as_published, METHOD_CHOICES);
-  visit (OptionRow{"topology", KIND, "setTopology", UsedFor::ALL,
-                   "what the points are taken for: a disc (one component with one boundary loop, "
-                   "laid out in the plane) or any surface; auto: a disc if the boundary loop is "
-                   "given, else any surface"},
-         options.topology, TOPOLOGY_CHOICES);
-  visit (OptionRow{"holes", SURFACE, "setHolePolicy", UsedFor::ALL,
-                   "boundary loops that stay open: those that look like boundaries, not like gaps "
-                   "of the sampling; none; the largest of each component; a number of the most "
-                   "likely; or those above a size"},
+  visit (
+      {"topology", KIND, "setTopology", UsedFor::ALL,
+       "what the points are taken for: a disc (one component with one boundary loop, laid out in "
+       "the plane) or any surface; auto: a disc if the boundary loop is given, else any surface"},
+      options.topology, TOPOLOGY_CHOICES);
+  visit ({"holes", SURFACE, "setHolePolicy", UsedFor::ALL,
+          "boundary loops that stay open: those that look like boundaries, not like gaps of the "
+          "sampling; none; the largest of each component; a number of the most likely; or those "
+          "above a size"},
          options.holes.policy, HOLE_CHOICES);
-  visit (OptionRow{"kept_loops", SURFACE, "setKeptLoops", UsedFor::KEEP_COUNT,
-                   "keep-count: boundary loops that stay open"},
+  visit ({"kept_loops", SURFACE, "setKeptLoops", UsedFor::KEEP_COUNT,
+          "keep-count: boundary loops that stay open"},
          options.holes.kept_loops, NumberRange{0, NO_LIMIT});
-  visit (OptionRow{"largest_hole", SURFACE, "setLargestHole (size)", UsedFor::BY_SIZE,
-                   "by-size: width of the widest hole to fill, in local spacings"},
+  visit ({"largest_hole", SURFACE, "setLargestHole (size)", UsedFor::BY_SIZE,
+          "by-size: width of the widest hole to fill, in local spacings"},
          options.holes, LengthUnit::SPACINGS);
-  visit (OptionRow{"largest_hole_length", SURFACE, "setLargestHole (size, LengthUnit::CLOUD)",
-                   UsedFor::BY_SIZE, "instead of largest-hole: the same in units of the cloud"},
+  visit ({"largest_hole_length", SURFACE, "setLargestHole (size, LengthUnit::CLOUD)",
+          UsedFor::BY_SIZE, "instead of largest-hole: the same in units of the cloud"},
          options.holes, LengthUnit::CLOUD);
-  visit (OptionRow{"viewpoint", SURFACE, "setViewPoint, setViewUse", UsedFor::ALL,
-                   "one scan: where its sensor was, before any shift; its points are connected as "
-                   "they were seen from there. auto: that of the file, or one that is found, if "
-                   "the spacing of the points tells so; none: the cloud is no single scan"},
+  visit ({"viewpoint", SURFACE, "setViewPoint, setViewUse", UsedFor::ALL,
+          "one scan: where its sensor was, before any shift; its points are connected as they were "
+          "seen from there. auto: that of the file, or one that is found, if the spacing of the "
+          "points tells so; none: the cloud is no single scan"},
          options.view);
-  visit (OptionRow{"facing", SURFACE, "setFacing", UsedFor::ALL,
-                   "which side of each component is its front; auto: decided from the data"},
+  visit ({"facing", SURFACE, "setFacing", UsedFor::ALL,
+          "which side of each component is its front; auto: decided from the data"},
          options.facing, FACING_CHOICES);
-  visit (OptionRow{"max_edge", SURFACE, "setMaximumEdgeLength", UsedFor::ALL,
-                   "cut off triangles with a longer edge, in units of the cloud; 0: no limit"},
+  visit ({"max_edge", SURFACE, "setMaximumEdgeLength", UsedFor::ALL,
+          "cut off triangles with a longer edge, in units of the cloud; 0: no limit"},
          trimming.maximum_edge_length, NumberRange{0, NO_LIMIT});
-  visit (OptionRow{"max_edge_ratio", SURFACE, "setMaximumEdgeRatio", UsedFor::ALL,
-                   "the same in local spacings; 0: no limit"},
+  visit ({"max_edge_ratio", SURFACE, "setMaximumEdgeRatio", UsedFor::ALL,
+          "the same in local spacings; 0: no limit"},
          trimming.maximum_edge_ratio, NumberRange{0, NO_LIMIT});
-  visit (OptionRow{"min_component", SURFACE, "setMinimumComponentSize", UsedFor::ALL,
-                   "cut off components of fewer points"},
+  visit ({"min_component", SURFACE, "setMinimumComponentSize", UsedFor::ALL,
+          "cut off components of fewer points"},
          trimming.minimum_component_size, NumberRange{0, NO_LIMIT});
-  visit (OptionRow{"remove_outliers", SURFACE, "setRemoveOutliers", UsedFor::ALL,
-                   "leave points that lie off any surface out of the mesh"},
+  visit ({"remove_outliers", SURFACE, "setRemoveOutliers", UsedFor::ALL,
+          "leave points that lie off any surface out of the mesh"},
          options.remove_outliers);
-  visit (OptionRow{"scatter", SURFACE, "setScatterPolicy", UsedFor::SCATTER,
-                   "what becomes of regions that are no surface at any scale, such as leaves"},
+  visit ({"scatter", SURFACE, "setScatterPolicy", UsedFor::SCATTER,
+          "what becomes of regions that are no surface at any scale, such as leaves"},
          options.scatter, SCATTER_CHOICES);
-  visit (
-      OptionRow{"denoise", SURFACE, "setDenoise", UsedFor::ALL,
-                "where noise is strong, connect points as they lie when projected on local planes"},
-      options.denoise);
-  visit (
-      OptionRow{"flips", SURFACE, "setFlipEdges", UsedFor::ALL, "flip edges in space at the end"},
-      options.flip_edges);
-  visit (OptionRow{"uncross", SURFACE, "setRemoveSelfIntersections", UsedFor::ALL,
-                   "change the mesh where triangles cross each other or are folded"},
+  visit ({"denoise", SURFACE, "setDenoise", UsedFor::ALL,
+          "where noise is strong, connect points as they lie when projected on local planes"},
+         options.denoise);
+  visit ({"flips", SURFACE, "setFlipEdges", UsedFor::ALL, "flip edges in space at the end"},
+         options.flip_edges);
+  visit ({"uncross", SURFACE, "setRemoveSelfIntersections", UsedFor::ALL,
+          "change the mesh where triangles cross each other or are folded"},
          options.remove_self_intersections);
-  visit (OptionRow{"open_crossings", SURFACE, "setOpenSelfIntersections", UsedFor::ALL,
-                   "take triangles out until no two cross each other"},
+  visit ({"open_crossings", SURFACE, "setOpenSelfIntersections", UsedFor::ALL,
+          "take triangles out until no two cross each other"},
          trimming.open_self_intersections);
-  visit (OptionRow{"neighbors", NEIGHBORHOODS, "setKSearch", UsedFor::NEAREST,
-                   "nearest neighbours of each point", "k"},
+  visit ({"neighbors", NEIGHBORHOODS, "setKSearch", UsedFor::NEAREST,
+          "nearest neighbours of each point", "k"},
          options.neighbors.k, NumberRange{6, 200});
-  visit (OptionRow{"neighborhood", NEIGHBORHOODS, "setNeighborhood", UsedFor::NEIGHBORHOOD,
-                   "points that a point of a disc is a mean of: the nearest, those in a ball, or "
-                   "the Delaunay star among either"},
+  visit ({"neighborhood", NEIGHBORHOODS, "setNeighborhood", UsedFor::NEIGHBORHOOD,
+          "points that a point of a disc is a mean of: the nearest, those in a ball, or the "
+          "Delaunay star among either"},
          options.neighbors.kind, NEIGHBORHOOD_CHOICES);
-  visit (OptionRow{"ball_radius", NEIGHBORHOODS, "setBallRadius", UsedFor::BALLS,
-                   "ball, ball-delaunay: radius, in mean distances of a point to its 6 nearest"},
+  visit ({"ball_radius", NEIGHBORHOODS, "setBallRadius", UsedFor::BALLS,
+          "ball, ball-delaunay: radius, in mean distances of a point to its 6 nearest"},
          options.neighbors.ball_radius, NumberRange{1, 10});
-  visit (OptionRow{"sheet_filter", NEIGHBORHOODS, "setFilterSheets", UsedFor::STARS,
-                   "drop neighbours on another sheet of the surface"},
+  visit ({"sheet_filter", NEIGHBORHOODS, "setFilterSheets", UsedFor::STARS,
+          "drop neighbours on another sheet of the surface"},
          options.filter_sheets);
-  visit (OptionRow{"boundary", BOUNDARY, "boundary.method", UsedFor::LOOP,
-                   "how the boundary loop is found: as the longest one of the surface on which the "
-                   "stars agree; or as in TW 385, section 3 (two-segments)"},
+  visit ({"boundary", BOUNDARY, "boundary.method", UsedFor::LOOP,
+          "how the boundary loop is found: as the longest one of the surface on which the stars "
+          "agree; or as in TW 385, section 3 (two-segments)"},
          disc.boundary.method, BOUNDARY_CHOICES);
-  visit (OptionRow{"opening_angle", BOUNDARY, "boundary.opening_angle", UsedFor::TWO_SEGMENTS,
-                   "two-segments: degrees; a boundary point has a wider sector without neighbours"},
+  visit ({"opening_angle", BOUNDARY, "boundary.opening_angle", UsedFor::TWO_SEGMENTS,
+          "two-segments: degrees; a boundary point has a wider sector without neighbours"},
          disc.boundary.opening_angle, NumberRange{0, 360, true, true});
-  visit (OptionRow{"cluster_tolerance", BOUNDARY, "boundary.cluster_tolerance",
-                   UsedFor::TWO_SEGMENTS,
-                   "two-segments: distance over which clusters grow, as a fraction of the bounding "
-                   "box diagonal"},
+  visit ({"cluster_tolerance", BOUNDARY, "boundary.cluster_tolerance", UsedFor::TWO_SEGMENTS,
+          "two-segments: distance over which clusters grow, as a fraction of the bounding box "
+          "diagonal"},
          disc.boundary.cluster_tolerance, NumberRange{0, 1, true, false});
-  visit (OptionRow{"cluster_neighbors", BOUNDARY, "boundary.cluster_k", UsedFor::TWO_SEGMENTS,
-                   "two-segments: boundary points that a cluster takes in at a time"},
+  visit ({"cluster_neighbors", BOUNDARY, "boundary.cluster_k", UsedFor::TWO_SEGMENTS,
+          "two-segments: boundary points that a cluster takes in at a time"},
          disc.boundary.cluster_k, NumberRange{1, NO_LIMIT});
-  visit (OptionRow{"domain", PARAMETERIZATION, "domain.curve", UsedFor::DISC,
-                   "convex curve on which the loop is laid"},
+  visit ({"domain", PARAMETERIZATION, "domain.curve", UsedFor::DISC,
+          "convex curve on which the loop is laid"},
          disc.domain.curve, DOMAIN_CHOICES);
-  visit (OptionRow{"sides", PARAMETERIZATION, "domain.polygon_sides", UsedFor::POLYGON,
-                   "sides of the polygon"},
-         disc.domain.polygon_sides, NumberRange{3, NO_LIMIT});
-  visit (OptionRow{"spacing", PARAMETERIZATION, "domain.loop_spacing", UsedFor::DISC,
-                   "how the points of the loop are spaced on that curve"},
-         disc.domain.loop_spacing, SPACING_CHOICES);
-  visit (OptionRow{"weights", PARAMETERIZATION, "weighting", UsedFor::DISC,
-                   "weights of the neighbours of a point"},
-         disc.weighting, WEIGHTING_CHOICES);
-  visit (OptionRow{"solver", SYSTEM, "solver.method", UsedFor::DISC, "what solves the system"},
-         disc.solver.method, SOLVER_CHOICES);
-  visit (OptionRow{"ordering", SYSTEM, "solver.ordering", UsedFor::DISC, "order of the unknowns"},
-         disc.solver.ordering, ORDERING_CHOICES);
-  visit (OptionRow{"tolerance", SYSTEM, "solver.tolerance", UsedFor::ITERATIVE,
-                   "bicgstab-ilut: relative residual to reach"},
-         disc.solver.tolerance, NumberRange{0, 1, true, true});
-  visit (OptionRow{"max_iterations", SYSTEM, "solver.max_iterations", UsedFor::ITERATIVE,
-                   "bicgstab-ilut: iterations after which it gives up"},
-         disc.solver.max_iterations, NumberRange{1, NO_LIMIT});
-  visit (OptionRow{"ilut_fill", SYSTEM, "solver.ilut_fill", UsedFor::ITERATIVE,
-                   "bicgstab-ilut: entries kept in a row of each factor"},
-         disc.solver.ilut_fill, NumberRange{1, 10000});
   visit (
-      OptionRow{
-          "ilut_drop", SYSTEM, "solver.ilut_drop", UsedFor::ITERATIVE,
+      {"sides", PARAMETERIZATION, "domain.polygon_sides", UsedFor::POLYGON, "sides of the polygon"},
+      disc.domain.polygon_sides, NumberRange{3, NO_LIMIT});
+  visit ({"spacing", PARAMETERIZATION, "domain.loop_spacing", UsedFor::DISC,
+          "how the points of the loop are spaced on that curve"},
+         disc.domain.loop_spacing, SPACING_CHOICES);
+  visit ({"weights", PARAMETERIZATION, "weighting", UsedFor::DISC,
+          "weights of the neighbours of a point"},
+         disc.weighting, WEIGHTING_CHOICES);
+  visit ({"solver", SYSTEM, "solver.method", UsedFor::DISC, "what solves the system"},
+         disc.solver.method, SOLVER_CHOICES);
+  visit ({"ordering", SYSTEM, "solver.ordering", UsedFor::DISC, "order of the unknowns"},
+         disc.solver.ordering, ORDERING_CHOICES);
+  visit ({"tolerance", SYSTEM, "solver.tolerance", UsedFor::ITERATIVE,
+          "bicgstab-ilut: relative residual to reach"},
+         disc.solver.tolerance, NumberRange{0, 1, true, true});
+  visit ({"max_iterations", SYSTEM, "solver.max_iterations", UsedFor::ITERATIVE,
+          "bicgstab-ilut: iterations after which it gives up"},
+         disc.solver.max_iterations, NumberRange{1, NO_LIMIT});
+  visit ({"ilut_fill", SYSTEM, "solver.ilut_fill", UsedFor::ITERATIVE,
+          "bicgstab-ilut: entries kept in a row of each factor"},
+         disc.solver.ilut_fill, NumberRange{1, 10000});
+  visit ({"ilut_drop", SYSTEM, "solver.ilut_drop", UsedFor::ITERATIVE,
           "bicgstab-ilut: entries of the factors below this fraction of their row are dropped"},
-      disc.solver.ilut_drop, NumberRange{0, 1});
+         disc.solver.ilut_drop, NumberRange{0, 1});
 }
 
 /// A visitor that keeps the rows, and their values as numbers that differ where the values do.

@@ -7,21 +7,15 @@
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
 #include "local/planes.h"
-#include "mesh/check.h"
 #include "points/net.h"
-#include "points/outliers.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
   NetLimits net;
-  OutlierLimits outliers;
-  PlaneLimits planes;
-  SheetLimits sheets;
   SurfaceLimits surface;
   ViewLimits view;
-  CheckLimits check;
 };
 
 struct Request
@@ -44,6 +38,29 @@ inline bool
 asksForDisc (const Options& options)
 {
   return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
+}
+
+/// With DiscOptions::as_published, tangent planes use all neighbours (section 4.1).
+inline PlaneLimits
+planeLimits (const Options& options)
+{
+  PlaneLimits limits;
+  if (options.disc.as_published) {
+    limits.core_points = std::numeric_limits<std::size_t>::max ();
+    limits.sheet_sine = 1.0;
+  }
+  return limits;
+}
+
+/// Settings for the stars of the points.
+inline StarSettings
+starSettings (const Options& options)
+{
+  StarSettings settings;
+  settings.filter_sheets = options.filter_sheets;
+  settings.with_offsets = asksForDisc (options);
+  settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
+  return settings;
 }
 
 /// Whether the cloud may be connected as its sensor saw it.

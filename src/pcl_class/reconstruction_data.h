@@ -17,18 +17,13 @@ struct ReconstructionState::Data
   bool computes_texture = false;
   double largest_stretch = TextureOptions ().largest_stretch;
   Report report;
-  TextureCoordinates texture;
-  std::vector<int> parts;          // of each point; empty if there is no mesh
-  std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
-  Normals normals;                 // of each point; empty if not asked for
-
-  void forgetMesh ()
+  struct
   {
-    texture = {};
-    parts.clear ();
-    states.clear ();
-    normals.clear ();
-  }
+    TextureCoordinates texture;
+    std::vector<int> parts;          // of each point; empty if there is no mesh
+    std::vector<std::int8_t> states; // PointState of each point; empty if there is no mesh
+    Normals normals;                 // of each point; empty if not asked for
+  } mesh;
 };
 
 } // namespace pcl::floater

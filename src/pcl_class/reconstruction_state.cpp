@@ -12,11 +12,10 @@
 #include <pcl/console/print.h>
 #include <pcl/features/impl/normal_3d.hpp>
 #include <pcl/features/normal_3d.h>
+#include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/impl/floater_reconstruction.hpp>
-
-#include <new>
 
 namespace pcl::floater {
 namespace {
@@ -164,9 +163,9 @@ ReconstructionState::makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& 
   output.tex_polygons.push_back (std::move (mesh.polygons));
   // One for each corner, in order, so that all versions of PCL write correct OBJ files.
   output.tex_coordinates.emplace_back ();
-  for (const std::array<std::uint32_t, 3>& corners : data_->texture.corners)
+  for (const std::array<std::uint32_t, 3>& corners : data_->mesh.texture.corners)
     for (const std::uint32_t corner : corners)
-      output.tex_coordinates.front ().push_back (data_->texture.coordinates[corner]);
+      output.tex_coordinates.front ().push_back (data_->mesh.texture.coordinates[corner]);
   setCoordinateIndices (output, 0);
   pcl::TexMaterial material;
   material.tex_name = "surface";
@@ -182,8 +181,8 @@ ReconstructionState::makeTextureMesh (pcl::PolygonMesh& mesh, pcl::TextureMesh& 
 void
 ReconstructionState::beginRun ()
 {
-  data_->report = Report ();
-  data_->forgetMesh ();
+  data_->report = {};
+  data_->mesh = {};
 }
 
 void
@@ -196,15 +195,10 @@ ReconstructionState::fail (RunStatus status, const std::string& message)
 void
 ReconstructionState::failByException () noexcept
 {
-  data_->forgetMesh ();
-  try {
-    const Problem problem = problemOfException ();
-    fail (problem.status, problem.message);
-  }
-  catch (const std::bad_alloc&) {
-    data_->report.status = RunStatus::OUT_OF_MEMORY;
-    data_->report.message = NO_MEMORY;
-  }
+  data_->mesh = {};
+  Problem problem = problemOfException ();
+  data_->report.status = problem.status;
+  data_->report.message = std::move (problem.message);
 }
 
 bool
@@ -269,25 +263,25 @@ ReconstructionState::triangulatePoints (Input&& input)
   Result result = reconstruct (std::move (input), options);
   if (computes_texture && result.report.status == RunStatus::SUCCESS) {
     texture_options.whole_discs = result.report.topology == Topology::DISC;
-    data_->texture = computeTextureCoordinates (positions, result.triangles, texture_options);
+    data_->mesh.texture = computeTextureCoordinates (positions, result.triangles, texture_options);
     Report& report = result.report;
-    if (data_->texture.status != RunStatus::SUCCESS) { // becomes the failure of the run
+    if (data_->mesh.texture.status != RunStatus::SUCCESS) { // becomes the failure of the run
       result.triangles.clear ();
-      report.status = data_->texture.status;
-      report.message = "texture coordinates: " + data_->texture.message;
+      report.status = data_->mesh.texture.status;
+      report.message = "texture coordinates: " + data_->mesh.texture.message;
     }
-    else if (data_->texture.flipped > 0)
-      report.warnings.push_back (std::to_string (data_->texture.flipped) +
+    else if (data_->mesh.texture.flipped > 0)
+      report.warnings.push_back (std::to_string (data_->mesh.texture.flipped) +
                                  " triangles are upside down in the texture: they are too small "
                                  "beside the mesh for 32 bits");
   }
   data_->report = std::move (result.report);
   if (data_->report.status == RunStatus::SUCCESS) {
-    data_->parts = componentsOf (result.triangles, is_selected.size ());
-    data_->states =
-        statesOf (result.triangles, data_->parts, is_selected, data_->report.non_finite);
+    data_->mesh.parts = componentsOf (result.triangles, is_selected.size ());
+    data_->mesh.states =
+        statesOf (result.triangles, data_->mesh.parts, is_selected, data_->report.non_finite);
     if (computes_normals)
-      data_->normals = vertexNormals (positions, result.triangles, options.threads);
+      data_->mesh.normals = vertexNormals (positions, result.triangles, options.threads);
   }
   return std::move (result.triangles);
 }
@@ -309,3 +303,5 @@ ReconstructionState::printOutcome (const std::string& class_name) const
 }
 
 } // namespace pcl::floater
+
+PCL_INSTANTIATE (FloaterReconstruction, PCL_XYZ_POINT_TYPES)

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/findings.h"
 
-#include <cstdlib>
 #include <sstream>
 #include <string_view>
 

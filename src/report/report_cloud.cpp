@@ -58,8 +58,22 @@ reportStacks (const Points& points, const Stacks& stacks, Report& report)
   report.statistics.largest_stack_height = stacks.largest;
   if (stacks.points > 0)
     addFinding (report, FindingId::STACKED_POINTS, points, {stacks.at}, stacks.points,
-                100.0 * static_cast<double> (stacks.points) / static_cast<double> (points.total ()),
-                stacks.median, stacks.largest);
+                100.0 * stacks.points / points.total (), stacks.median, stacks.largest);
+}
+
+void
+reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_finding,
+               Report& report)
+{
+  report.scatter = valuesAt (points.cloud_index, scatter);
+  for (std::size_t i = 0; i < points.stacked.of.size (); ++i)
+    if (std::binary_search (scatter.begin (), scatter.end (), points.stacked.of[i]))
+      report.scatter.push_back (points.stacked.cloud_index[i]);
+  std::sort (report.scatter.begin (), report.scatter.end ());
+  report.statistics.scatter_points = report.scatter.size ();
+  if (is_finding && !scatter.empty ())
+    addFinding (report, FindingId::SCATTER, points, {scatter.front ()}, report.scatter.size (),
+                100.0 * report.scatter.size () / points.total ());
 }
 
 void
@@ -72,9 +86,7 @@ reportNoise (const Noise& noise, bool denoised, Report& report)
   report.denoised = denoised;
   if (denoised)
     addFinding (report, FindingId::NOISE, {}, {}, noise.noisy_points, noise.largest, noise.median,
-                noise.quantile_90,
-                100.0 * static_cast<double> (noise.noisy_points) /
-                    static_cast<double> (noise.at_point.size ()));
+                noise.quantile_90, 100.0 * noise.noisy_points / noise.at_point.size ());
 }
 
 void

@@ -3,7 +3,6 @@
 // What a report says of the cloud.
 #pragma once
 
-#include "core/types.h"
 #include "points/coordinate_grid.h"
 #include "points/net.h"
 #include "points/noise.h"
@@ -26,6 +25,11 @@ reportOutliers (const std::vector<Index>& outliers, FindingId what, Report& repo
 /// Points that lie on others.
 void
 reportStacks (const Points& points, const Stacks& stacks, Report& report);
+
+/// Points on no surface, ascending, and those that lie on them; a finding if they are left out unasked.
+void
+reportScatter (const Points& points, const std::vector<Index>& scatter, bool is_finding,
+               Report& report);
 
 /// The noise; warns if points are connected by their projections.
 void

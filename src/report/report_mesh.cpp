@@ -4,7 +4,6 @@
 
 #include "core/order_statistics.h"
 #include "report/findings.h"
-#include "report/verdict.h"
 
 namespace pcl::floater {
 namespace {
@@ -215,40 +214,6 @@ reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Rep
   add (guessOf (wanted), guessed);
 }
 
-// Figures, the reason if no disc was made, points in no triangle (except those listed as outliers), and
-// the longest loop if there is none yet. Warns, with positions, of unused points, folds, long edges,
-// triangles without area, components of a few points, and small holes that no option asked for.
-// \return INTERNAL_ERROR unless the mesh is an oriented manifold
-Problem
-reportCheck (const Points& points, const MeshExamination& found, const Options& options,
-             Report& report)
-{
-  report.check = found.check;
-  if (report.topology == Topology::SURFACE)
-    report.topology_reason =
-        (options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check)) +
-        (report.is_view ? ", seen from one place" : "");
-  report.statistics.folds = found.check.folds;
-  if (!found.isManifold ())
-    return {RunStatus::INTERNAL_ERROR,
-            "the result is not an oriented manifold: " +
-                std::to_string (found.check.nonmanifold_edges) + " edges and " +
-                std::to_string (found.check.nonmanifold_vertices) + " points are not manifold" +
-                (found.broken_at == NONE
-                     ? ""
-                     : ", one at " + placeText (points.cloud_index[found.broken_at],
-                                                points.inCloud (found.broken_at))) +
-                "; please report this with the cloud"};
-  if (report.loop.empty () && !found.loops.empty ()) {
-    report.loop = valuesAt (points.cloud_index, found.loops.front ().points);
-    report.statistics.loop_points = report.loop.size ();
-  }
-  reportUnused (points, found, report);
-  findShape (points, found, report);
-  findHoles (points, found, options, report);
-  return {};
-}
-
 } // namespace
 
 void
@@ -264,8 +229,7 @@ reportDisc (const Points& points, const Disc& disc, Report& report)
   SystemStatistics& figures = report.statistics;
   figures = disc.figures;
   if (figures.nnz_matrix > 0)
-    figures.fill_in =
-        static_cast<double> (figures.nnz_factors) / static_cast<double> (figures.nnz_matrix);
+    figures.fill_in = static_cast<double> (figures.nnz_factors) / figures.nnz_matrix;
   if (disc.uv.empty ())
     return;
   const Vector2d nowhere = Vector2d::Constant (std::numeric_limits<double>::quiet_NaN ());
@@ -317,8 +281,29 @@ reportMesh (const Points& points, const std::vector<Triangle>& triangles,
   statistics.self_intersection_moves = finish.repairs.moves;
   statistics.self_intersection_rebuilds = finish.repairs.rebuilds;
   statistics.triangles = triangles.size ();
-  if (Problem problem = reportCheck (points, found, options, report))
-    return problem;
+  report.check = found.check;
+  if (report.topology == Topology::SURFACE)
+    report.topology_reason =
+        (options.topology == Topology::SURFACE ? "asked for" : inFewWords (found.check)) +
+        (report.is_view ? ", seen from one place" : "");
+  statistics.folds = found.check.folds;
+  if (!found.isManifold ())
+    return {RunStatus::INTERNAL_ERROR,
+            "the result is not an oriented manifold: " +
+                std::to_string (found.check.nonmanifold_edges) + " edges and " +
+                std::to_string (found.check.nonmanifold_vertices) + " points are not manifold" +
+                (found.broken_at == NONE
+                     ? ""
+                     : ", one at " + placeText (points.cloud_index[found.broken_at],
+                                                points.inCloud (found.broken_at))) +
+                "; please report this with the cloud"};
+  if (report.loop.empty () && !found.loops.empty ()) {
+    report.loop = valuesAt (points.cloud_index, found.loops.front ().points);
+    statistics.loop_points = report.loop.size ();
+  }
+  reportUnused (points, found, report);
+  findShape (points, found, report);
+  findHoles (points, found, options, report);
   report.check.largest_area_share = largestAreaShare (triangles, points.positions);
   // Nothing is said of what was trimmed: it was asked for.
   statistics.trimmed_triangles = trimming.triangles;

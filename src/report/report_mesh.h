@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reports on the mesh for the user: cloud indices, counts, warnings.
+// Reports on the mesh for the user: cloud indices, counts, warnings; and how good it is.
 #pragma once
 
 #include "consensus/consensus_method.h"
 #include "core/problem.h"
-#include "core/types.h"
 #include "floater/floater_method.h"
 #include "mesh/check.h"
 #include "mesh/finish.h"
@@ -34,5 +33,15 @@ Problem
 reportMesh (const Points& points, const std::vector<Triangle>& triangles,
             const MeshExamination& found, const MeshFinish& finish, const Trimming& trimming,
             const Options& options, Report& report);
+
+/// Judges a finished mesh. The cause is that of the measure which is farthest beyond its bound.
+/// \param report of a successful run, complete but for its verdict
+Verdict
+judge (const Report& report);
+
+/// Share of the total area that the largest 1 % of the triangles have; 0 if there is no area, or if
+/// there are fewer than 100 triangles, of which one may rightly have a large share. O(n).
+double
+largestAreaShare (const std::vector<Triangle>& triangles, const Positions& positions);
 
 } // namespace pcl::floater

@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report/verdict.h"
-
-#include "core/geometry.h"
 #include "report/findings.h"
-
-#include <initializer_list>
+#include "report/report_mesh.h"
 
 namespace pcl::floater {
 namespace {
@@ -201,20 +197,16 @@ judge (const Report& report)
 }
 
 double
-largestAreaShare (const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                  const Positions& positions)
+largestAreaShare (const std::vector<Triangle>& triangles, const Positions& positions)
 {
   std::vector<float> areas;
   areas.reserve (triangles.size ());
-  for (const auto& [a, b, c] : triangles)
-    areas.push_back (
-        static_cast<float> (areaVector (positions[a], positions[b], positions[c]).norm ()));
+  for (const Triangle& t : triangles)
+    areas.push_back (static_cast<float> (areaVectorOf (t, positions).norm ()));
   const double all = std::accumulate (areas.begin (), areas.end (), 0.0);
-  const std::size_t largest = areas.size () / 100;
-  std::nth_element (areas.begin (), areas.begin () + static_cast<std::ptrdiff_t> (largest),
-                    areas.end (), std::greater<> ());
-  const double of_largest =
-      std::accumulate (areas.begin (), areas.begin () + static_cast<std::ptrdiff_t> (largest), 0.0);
+  const auto largest = areas.begin () + areas.size () / 100;
+  std::nth_element (areas.begin (), largest, areas.end (), std::greater<> ());
+  const double of_largest = std::accumulate (areas.begin (), largest, 0.0);
   return all > 0.0 ? of_largest / all : 0.0;
 }
 

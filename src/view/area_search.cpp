@@ -59,19 +59,6 @@ middleBox (const std::vector<AreaSample>& samples)
   return box;
 }
 
-// The middles of the cells of a grid over twice a box.
-void
-addGrid (const Eigen::AlignedBox3d& box, std::vector<RatedViewpoint>& places)
-{
-  for (std::size_t i = 0; i < CELLS * CELLS * CELLS; ++i) {
-    const std::size_t column = i / CELLS % CELLS, layer = i / (CELLS * CELLS);
-    const Eigen::Array3d cell (static_cast<double> (i % CELLS), static_cast<double> (column),
-                               static_cast<double> (layer));
-    const Vector3d offset = (2.0 * (cell + 0.5) / static_cast<double> (CELLS) - 1.0).matrix ();
-    places.push_back ({0.0, {box.center () + offset.cwiseProduct (box.sizes ()), false}});
-  }
-}
-
 // Viewpoints on grids over the boxes of all and of half of the samples, and far ones, the best ones first.
 std::vector<RatedViewpoint>
 startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d& box,
@@ -79,8 +66,13 @@ startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3
 {
   constexpr std::size_t DIRECTIONS = 100; // of farther viewpoints: 20 degrees apart
   std::vector<RatedViewpoint> places;
-  addGrid (box, places);
-  addGrid (middle, places);
+  // The middles of the cells of grids over twice the boxes.
+  for (const Eigen::AlignedBox3d& one : {box, middle})
+    for (std::size_t i = 0; i < CELLS * CELLS * CELLS; ++i) {
+      const Eigen::Array3d cell (i % CELLS, i / CELLS % CELLS, i / (CELLS * CELLS));
+      const Vector3d offset = (2.0 * (cell + 0.5) / static_cast<double> (CELLS) - 1.0).matrix ();
+      places.push_back ({0.0, {one.center () + offset.cwiseProduct (one.sizes ()), false}});
+    }
   // On spheres around the box, the last of infinite radius.
   for (std::size_t i = 0; i < DIRECTIONS; ++i) {
     const Vector3d direction = spiralDirection (i, DIRECTIONS);
@@ -93,7 +85,7 @@ startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3
   parallelPoints<std::vector<double>> (run, places.size (), [&] (Index i, auto& angles) {
     places[i].cost = areaSpread (samples, places[i].viewpoint, angles);
   });
-  std::stable_sort (places.begin (), places.end (), isCheaper);
+  std::stable_sort (places.begin (), places.end ());
   return places;
 }
 
@@ -145,7 +137,6 @@ double
 spreadOfAreas (const std::vector<AreaSample>& samples)
 {
   std::vector<double> areas;
-  areas.reserve (samples.size ());
   for (const AreaSample& sample : samples)
     areas.push_back (sample.area);
   return quartileSpread (areas);
@@ -184,7 +175,7 @@ searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d
         patternSearch (places[k].viewpoint, cell, SMALLEST_STEP, box.center (), EVALUATIONS, cost);
   });
   places = keepApart (places, 4.0 * SMALLEST_STEP, places.size ());
-  std::stable_sort (places.begin (), places.end (), isCheaper);
+  std::stable_sort (places.begin (), places.end ());
   const double spread = spreadOfAreas (samples);
   if (places.front ().cost > EXPLAINED * spread)
     return {};

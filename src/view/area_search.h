@@ -36,13 +36,9 @@ struct RatedViewpoint
 {
   double cost;
   Viewpoint viewpoint;
-};
 
-inline bool
-isCheaper (const RatedViewpoint& a, const RatedViewpoint& b)
-{
-  return a.cost < b.cost;
-}
+  bool operator<(const RatedViewpoint& other) const { return cost < other.cost; }
+};
 
 /// The first candidates without those near an earlier one.
 inline std::vector<RatedViewpoint>
@@ -73,7 +69,7 @@ patternSearch (const Viewpoint& start, double step, double smallest_step, const 
     viewpoint.place += by;
     if (viewpoint.is_far)
       viewpoint.place.normalize ();
-    evaluations -= evaluations > 0 ? 1 : 0;
+    --evaluations;
     return {cost (viewpoint), viewpoint};
   };
   // Changing axes: in a narrow valley of the cost, no fixed axis may lead down.

@@ -67,11 +67,10 @@ fewAtRanks (const std::vector<float>& values, std::uint32_t size, std::int32_t l
 }
 
 // Logarithm of the ratio of a 90 % quantile over a 10 % quantile.
-template <typename Value>
 double
-logOfRatio (const std::pair<Value, Value>& ends)
+logOfRatio (const std::pair<double, double>& ends)
 {
-  const auto small = static_cast<double> (ends.first), large = static_cast<double> (ends.second);
+  const auto [small, large] = ends;
   constexpr double LARGEST = 10.0; // maximum of the logarithm, also for patches without rows
   return large < small * std::exp (LARGEST) ? std::log (large / small) : LARGEST;
 }
@@ -92,11 +91,10 @@ double
 meanOver (std::vector<double>& spreads, const Viewpoint& viewpoint)
 {
   const std::size_t left_out = viewpoint.is_far ? 0 : spreads.size () / 4;
-  const auto last = spreads.end () - static_cast<std::ptrdiff_t> (left_out);
+  const auto last = spreads.end () - left_out;
   if (left_out > 0)
     std::nth_element (spreads.begin (), last, spreads.end ());
-  return std::accumulate (spreads.begin (), last, 0.0) /
-         static_cast<double> (last - spreads.begin ());
+  return std::accumulate (spreads.begin (), last, 0.0) / (last - spreads.begin ());
 }
 
 // The rays to the points of a patch, in single precision relative to the first one, which keeps
@@ -112,9 +110,8 @@ struct PatchRays
 
   PatchRays (const Positions& positions, const RayPatch& patch, const Viewpoint& viewpoint,
              bool with_across)
-      : judged (static_cast<std::uint32_t> (patch.size () / 2)), x (patch.size () + LANES),
-        y (x.size ()), z (x.size ()), nearest (x.size ()), second (x.size ()), across (x.size ()),
-        at (x.size ())
+      : judged (patch.size () / 2), x (patch.size () + LANES), y (x.size ()), z (x.size ()),
+        nearest (x.size ()), second (x.size ()), across (x.size ()), at (x.size ())
   {
     Vector3d first = Vector3d::Zero ();
     for (std::size_t i = 0; i < patch.size (); ++i) {
@@ -127,7 +124,7 @@ struct PatchRays
       z[i] = offset.z ();
     }
     for (std::uint32_t i = 0; i < judged; i += LANES)
-      judge (i, static_cast<std::int32_t> (patch.size ()), with_across);
+      judge (i, patch.size (), with_across);
   }
 
   // Of the distances of the rays that are judged.
@@ -135,8 +132,7 @@ struct PatchRays
   {
     return judged < FEWEST_VALUES
                ? 0.0
-               : logOfRatio (fewAtRanks (distances, judged, static_cast<std::int32_t> (judged / 10),
-                                         static_cast<std::int32_t> (judged * 9 / 10)));
+               : logOfRatio (fewAtRanks (distances, judged, judged / 10, judged * 9 / 10));
   }
 
 private:
@@ -261,9 +257,7 @@ findRayEvidence (const Positions& positions, const std::vector<RayPatch>& patche
     evidence.judged = rays.judged;
     std::vector<double> between_points;
     for (std::size_t i = 0; i < evidence.judged; ++i) {
-      evidence.near +=
-          static_cast<double> (rays.nearest[i]) < NEAR * static_cast<double> (rays.second[i]) ? 1
-                                                                                              : 0;
+      evidence.near += rays.nearest[i] < NEAR * rays.second[i] ? 1 : 0;
       between_points.push_back ((positions[patch[rays.at[i]]] - positions[patch[i]]).norm ());
     }
     evidence.ray_spread = rays.spreadOf (rays.nearest);
@@ -273,8 +267,8 @@ findRayEvidence (const Positions& positions, const std::vector<RayPatch>& patche
   for (const RayEvidence& patch : found) {
     evidence.judged += patch.judged;
     evidence.near += patch.near;
-    evidence.ray_spread += patch.ray_spread / static_cast<double> (found.size ());
-    evidence.point_spread += patch.point_spread / static_cast<double> (found.size ());
+    evidence.ray_spread += patch.ray_spread / found.size ();
+    evidence.point_spread += patch.point_spread / found.size ();
   }
   return evidence;
 }
@@ -375,9 +369,7 @@ looksToAllSides (const Positions& positions, const Viewpoint& viewpoint)
 {
   constexpr std::size_t DIRECTIONS = 200;
   constexpr double FARTHEST = 20.0; // degrees from any direction to the nearest ray
-  double cosine = 0.0;
-  emptyDirection (positions, viewpoint, DIRECTIONS, cosine);
-  return cosine > std::cos (FARTHEST * DEGREE);
+  return emptyDirection (positions, viewpoint, DIRECTIONS).second > std::cos (FARTHEST * DEGREE);
 }
 
 } // namespace pcl::floater

@@ -6,9 +6,8 @@
 #include "core/parallel.h"
 
 namespace pcl::floater {
-Vector3d
-emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
-                double& cosine)
+std::pair<Vector3d, double>
+emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries)
 {
   constexpr std::size_t COMPARED = 2000;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / COMPARED);
@@ -16,7 +15,7 @@ emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::siz
   for (std::size_t p = 0; p < positions.size (); p += step)
     directions.push_back (rayTo (positions[p], viewpoint).direction);
   Vector3d best = Vector3d::UnitZ ();
-  cosine = std::numeric_limits<double>::infinity ();
+  double cosine = std::numeric_limits<double>::infinity (); // of the angle to the nearest ray
   // In an order without neighbours in a row, of which each may be a little better than the one before.
   constexpr std::size_t STRIDE = 1237;
   for (std::size_t k = 0; k < tries; ++k) {
@@ -29,7 +28,7 @@ emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::siz
       best = tried;
     }
   }
-  return best;
+  return {best, cosine};
 }
 
 Ray
@@ -59,9 +58,8 @@ makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunConte
   // Seen from the sensor, x to y is anti-clockwise: the frame is right-handed about a vector
   // towards the sensor. Stereographic projection from `pole` looks at the sphere from outside.
   constexpr std::size_t TRIES = 2000; // finds cones of 5 degrees: the tear of the plane is small
-  double cosine = 0.0;
   const Vector3d pole = viewpoint.is_far ? Vector3d (-viewpoint.place)
-                                         : emptyDirection (positions, viewpoint, TRIES, cosine);
+                                         : emptyDirection (positions, viewpoint, TRIES).first;
   const Vector3d x = pole.unitOrthogonal (), y = pole.cross (x);
   parallelPoints (run, n, [&] (Index p) {
     const auto [direction, depth] = rayTo (positions[p], viewpoint);
@@ -74,17 +72,6 @@ makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunConte
     rays.places[p] = factor * Vector2d (direction.dot (x), direction.dot (y));
   });
   return rays;
-}
-
-Vector2d
-Rays::placeBeside (Index p, Index q) const
-{
-  if (are_parallel)
-    return places[q] - places[p];
-  const Vector3d& across = directions[p];
-  const Vector3d x = across.unitOrthogonal ();
-  const Vector3d y = x.cross (across); // towards the sensor, x to y is anti-clockwise
-  return Vector2d (x.dot (directions[q]), y.dot (directions[q])) / across.dot (directions[q]);
 }
 
 } // namespace pcl::floater

@@ -31,11 +31,11 @@ farFrom (const Viewpoint& near, const Vector3d& middle)
 /// The ray from a viewpoint to a point.
 struct Ray
 {
-  Vector3d direction; ///< unit vector; for parallel rays, the projection of the point on the
-                      ///< plane through the origin perpendicular to the rays. Distances
-                      ///< between directions approximate angles, or are distances. Zero if
-                      ///< the point is the viewpoint
-  double depth;       ///< along the ray
+  /// Unit vector, zero if the point is the viewpoint; for parallel rays, the projection of the point
+  /// on the plane through the origin across them. Distances between directions approximate angles, or
+  /// are distances.
+  Vector3d direction;
+  double depth; ///< along the ray
 };
 
 Ray
@@ -43,10 +43,9 @@ rayTo (const Vector3d& position, const Viewpoint& viewpoint);
 
 /// A direction in the widest of the cones without rays, of those around evenly spread directions.
 /// \param positions some 2000 of them are looked at
-/// \param[out] cosine of the angle to the nearest ray
-Vector3d
-emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries,
-                double& cosine);
+/// \return and the cosine of its angle to the nearest ray
+std::pair<Vector3d, double>
+emptyDirection (const Positions& positions, const Viewpoint& viewpoint, std::size_t tries);
 
 /// The rays to all points.
 struct Rays
@@ -63,12 +62,6 @@ struct Rays
   std::vector<Vector2d> places;
   bool are_parallel = false;
   Vector3d parallel = Vector3d::Zero (); ///< along parallel rays, unit length
-
-  /// Angle between two rays, or distance between parallel ones.
-  double distance (Index p, Index q) const { return (directions[p] - directions[q]).norm (); }
-
-  /// Where the ray of q meets a plane across the ray of p, from that point of p.
-  Vector2d placeBeside (Index p, Index q) const;
 };
 
 /// O(n).

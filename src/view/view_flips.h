@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gaps of a view, and the choice of its diagonals.
+// Gaps and depth steps of a view, and the choice of its diagonals.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -11,6 +11,22 @@ namespace pcl::floater {
 /// \return of each triangle: 1 if it does
 Flags
 findGaps (const TriangleMesh& view, const Rays& rays, const RunContext& run);
+
+/// Marks triangles at edges of the view that lead from one surface to another behind it.
+///
+/// From each end of an edge, the surface is extrapolated along the edge: inverse depths (see Rays)
+/// are affine in planes, so the triangle behind the end predicts the inverse depth at the other
+/// end. An edge is a step if it is steep, and if neither end predicts the other one: the deviation
+/// exceeds the noise, and the surface is not as steep in this direction. But where the surface goes
+/// the same way at both ends, steeply and beyond the noise, it is one that few rays hit, such as
+/// ground far from a low sensor.
+///
+/// Noise of depth grows with depth in every sensor, in some with its square. It is measured as a
+/// quantile of the deviations, divided by their sums of weights, at edges of about the same depth.
+/// Where most deviations are rounding, depths are quantized, and the noise is one quantum. O(n log n).
+/// \return of each triangle: 1 if one of its edges is a step
+Flags
+findDepthSteps (const TriangleMesh& view, const Rays& rays, const RunContext& run);
 
 /// Flips edges of the view to make the surface smoother. Each flip lowers the sum over the edges of
 /// 1 - cosine of the angle between their triangles, plus a penalty for each fold. In many scans the

@@ -8,22 +8,9 @@
 #include "mesh/check.h"
 #include "mesh/hole_filling.h"
 #include "mesh/trimming.h"
-#include "view/outlines.h"
 
 namespace pcl::floater {
 namespace {
-// Sorts triangles canonically, since later results depend on their order. Each begins with its
-// smallest corner; sorted by this and the next one, so along the curve of the points.
-TriangleMesh
-inOrder (TriangleMesh mesh, const RunContext& run)
-{
-  for (Triangle& t : mesh.triangles)
-    std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
-  sortInParallel (mesh.triangles, std::less<> (), run);
-  mesh.connect (mesh.triangle_of.size (), run);
-  return mesh;
-}
-
 // Fills the loops that the policy does not keep. All loops are at a gap or a depth step.
 std::size_t
 closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
@@ -138,7 +125,13 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   TriangleMesh& mesh = surface.mesh;
   run.beginStage (Stage::DELAUNAY);
   const Rays rays = makeRays (points.positions, viewpoint, run);
-  mesh = inOrder (triangulateHull (rays.places), run);
+  mesh = triangulateHull (rays.places);
+  // Sorts triangles canonically, since later results depend on their order. Each begins with its
+  // smallest corner; sorted by this and the next one, so along the curve of the points.
+  for (Triangle& t : mesh.triangles)
+    std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
+  sortInParallel (mesh.triangles, std::less<> (), run);
+  mesh.connect (points.size (), run);
 
   run.beginStage (Stage::HOLES);
   Flags is_left_out = findGaps (mesh, rays, run);

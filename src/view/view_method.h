@@ -5,7 +5,6 @@
 
 #include "consensus/consensus_method.h"
 #include "points/points.h"
-#include "view/depth_steps.h"
 #include "view/ray_evidence.h"
 #include "view/view_flips.h"
 #include "view/viewpoint_search.h"
@@ -51,8 +50,7 @@ struct ViewSurface
   std::size_t holes_filled = 0;
   std::size_t steps = 0; ///< triangles left out at depth steps
   std::size_t gaps = 0;  ///< triangles left out in gaps
-  Flags is_at_step;      ///< of each point: 1 if a triangle around it was left out
-                         ///< at a depth step
+  Flags is_at_step;      ///< of each point: 1 if a triangle around was left out at a depth step
 };
 
 /// Triangulates the rays, leaves out triangles in gaps or across depth steps, and chooses

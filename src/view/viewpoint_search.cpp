@@ -4,9 +4,6 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
-#include "view/ray_evidence.h"
-
-#include <Eigen/Eigenvalues>
 
 namespace pcl::floater {
 namespace {
@@ -36,8 +33,7 @@ public:
                    const std::vector<AreaSample>& samples, std::size_t patches, bool may_be_far,
                    const RunContext& run)
       : positions_ (points.positions), row_of_ (row_of), samples_ (samples), patches_ (patches),
-        few_patches_ (std::min (patches, COARSELY)), may_be_far_ (may_be_far),
-        excess_ (may_be_far ? 1.0 : LATE.regularity), run_ (run)
+        may_be_far_ (may_be_far), excess_ (may_be_far ? 1.0 : LATE.regularity), run_ (run)
   {
     for (const Vector3d& position : positions_)
       box_.extend (position);
@@ -50,22 +46,20 @@ public:
     constexpr std::size_t DIRECTIONS = 180; // one degree apart
     constexpr std::size_t REFINED = 4;      // best directions
     const double step = PI / static_cast<double> (DIRECTIONS);
-    std::vector<RatedViewpoint> candidates;
-    for (std::size_t k = 0; k < DIRECTIONS; ++k) {
-      const double angle = step * static_cast<double> (k);
-      candidates.push_back ({0.0, {std::cos (angle) * x + std::sin (angle) * y, true}});
-    }
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
     const std::vector<RayPatch> patches = findPointPatches (positions_, row_of_, FEW);
     // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
     // least cost was up to .053 of the median; along noisy lines that are no scan, .15 and more.
     constexpr double LEAST = 0.1;
+    std::vector<RatedViewpoint> candidates (DIRECTIONS);
     parallelTasks (run_, DIRECTIONS, [&] (std::size_t k) {
-      candidates[k].cost =
-          findRaySpread (positions_, patches, candidates[k].viewpoint, false, run_.withThreads (1));
+      const double angle = step * static_cast<double> (k);
+      const Viewpoint along{std::cos (angle) * x + std::sin (angle) * y, true};
+      candidates[k] = {findRaySpread (positions_, patches, along, false, run_.withThreads (1)),
+                       along};
     });
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    std::stable_sort (candidates.begin (), candidates.end ());
     if (candidates.front ().cost > LEAST * candidates[DIRECTIONS / 2].cost)
       return {};
     // Rays are evenly spaced from the right direction only; from others, less than from those
@@ -89,7 +83,7 @@ public:
       candidates[k].cost = findRaySpread (
           positions_, findRayPatches (positions_, place, one, few_patches_), place, true, one);
     });
-    std::stable_sort (candidates.begin (), candidates.end (), isCheaper);
+    std::stable_sort (candidates.begin (), candidates.end ());
     candidates.resize (std::min (candidates.size (), REFINED));
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
@@ -102,9 +96,14 @@ public:
         if (!found && in_rows)
           takeBetter (refineBy (candidate.viewpoint, AREA_ERROR, Measure::DENSITY), found);
       }
-      if (found && isDetermined (*found))
-        return isAsFar (found->viewpoint) ? farFrom (found->viewpoint, box_.center ())
-                                          : found->viewpoint;
+      if (found && isDetermined (*found)) {
+        // Rays are as even as parallel ones if within the cloud, whose diagonal is 1, their spacing
+        // changes by less than the spread that counts as even. The place may be on the wrong side.
+        const Viewpoint& seen_from = found->viewpoint;
+        const bool is_as_far =
+            !seen_from.is_far && (seen_from.place - box_.center ()).norm () * EVEN > 1.0;
+        return is_as_far ? farFrom (seen_from, box_.center ()) : seen_from;
+      }
     }
     return {};
   }
@@ -159,25 +158,15 @@ private:
                                  FARTHER * evidenceAt (farFrom (place, box_.center ())).ray_spread);
   }
 
-  // Whether rays from there are as even as parallel ones: within the cloud, whose diagonal is 1, their
-  // spacing changes by less than the spread that counts as even. Such a place may be on the wrong side.
-  bool isAsFar (const Viewpoint& found) const
-  {
-    return !found.is_far && (found.place - box_.center ()).norm () * EVEN > 1.0;
-  }
-
-  // Samples for the plane around a viewpoint: a tenth, as few as a plane needs.
-  static constexpr std::size_t AROUND = 50;
-
   // Mirror image of a viewpoint at the plane of the samples around it. A scanner low above the
   // ground is closer to its image than the precision of a descent by areas.
   Viewpoint mirrored (const Viewpoint& viewpoint) const
   {
+    constexpr std::size_t AROUND = 50; // samples: a tenth, as few as a plane needs
     std::vector<Vector3d> offsets;
     for (const AreaSample& sample : samples_)
       offsets.emplace_back (sample.position - viewpoint.place);
-    const auto around =
-        offsets.begin () + static_cast<std::ptrdiff_t> (std::min (offsets.size (), AROUND));
+    const auto around = offsets.begin () + std::min (offsets.size (), AROUND);
     std::partial_sort (
         offsets.begin (), around, offsets.end (),
         [] (const Vector3d& a, const Vector3d& b) { return a.squaredNorm () < b.squaredNorm (); });
@@ -271,12 +260,10 @@ private:
                  explains, may_be_far_ && (is_sure || explains)};
   }
 
-  static constexpr std::size_t COARSELY = 32;
-
   const Positions& positions_;
   const RowOf& row_of_;
   const std::vector<AreaSample>& samples_;
-  std::size_t patches_, few_patches_; // the latter in the first rounds of a descent
+  std::size_t patches_, few_patches_ = std::min<std::size_t> (patches_, 32); // few: in first rounds
   bool may_be_far_;
   double excess_; // by which REGULARITY may be missed
   RunContext run_;
@@ -352,9 +339,7 @@ findViewpoint (const Points& points, const RowOf& row_of, const std::vector<Area
     return {};
   const bool for_uneven = reason == SearchReason::UNEVEN;
   const ViewpointSearch search (points, row_of, samples, patches, for_uneven, run);
-  RowEvidence rows;
-  if (for_uneven)
-    rows = findRows (points, row_of);
+  const RowEvidence rows = for_uneven ? findRows (points, row_of) : RowEvidence ();
   if (rows.share > LINES && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
       return found;

@@ -5,7 +5,7 @@
 
 #include "options/option_rows.h"
 #include "reconstruct.h"
-#include "report/verdict.h"
+#include "report/report_mesh.h"
 #include "surface_samples.h"
 
 #include <gtest/gtest.h>

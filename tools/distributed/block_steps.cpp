@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "job.h"
 
-#include "cloud_geometry.h"
+#include "points/neighbors.h"
 #include "points/net.h"
+#include "points/outliers.h"
 #include "stored_cloud.h"
 
 namespace pcl::floater {
@@ -99,8 +100,9 @@ outliersStep (const Job& job, const Store& store, const Plan& plan)
   chooseNet (points, neighbors, {context.options.neighbors}, context.limits.net, context.run,
              nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
-  const std::vector<Index> outliers =
-      outliersOf (points, neighbors, {context.options, context.limits, context.run});
+  std::vector<Index> outliers;
+  if (context.options.remove_outliers)
+    outliers = findOutliers (points.positions, neighbors, context.run);
   if (!outliers.empty ())
     removePoints (points, outliers);
   if (!are_stacked.empty () || !outliers.empty ())
@@ -118,7 +120,7 @@ planesStep (const StepContext& context, std::size_t block)
     return put (context, "planes", block);
   const CsrLists nearest =
       left_out.isNothing () ? cloud.nearest (cloud.own (block)) : cloud.findNearest (block);
-  const StarSettings settings = starSettings ({context.options, context.limits, context.run});
+  const StarSettings settings = starSettings (context.options);
   BlockSearch search (cloud.cutter (), block, PLANE_HALO, nearest.ids);
   LocalPlanes planes;
   do {
@@ -127,8 +129,8 @@ planesStep (const StepContext& context, std::size_t block)
     around.normals = cloud.given<Eigen::Vector3f> ("normals", search.points ());
     planes = beginPlanes (around, toPlaces (search, nearest), search.makeTree (context.run),
                           settings, context.run);
-    planes =
-        fitLocalPlanes (around, std::move (planes), settings, context.run, context.limits.planes);
+    planes = fitLocalPlanes (around, std::move (planes), settings, context.run,
+                             planeLimits (context.options));
   } while (search.widen ());
   const CsrLists beside = ofOwn (search, planes.beside.neighbors);
   put (context, "planes", block,
@@ -146,7 +148,7 @@ starsStep (const StepContext& context, std::size_t block)
   StoredCloud cloud (context, readLeftOut (context));
   if (!cloud.hasPoints (block))
     return put (context, "stars", block);
-  const StarSettings settings = starSettings ({context.options, context.limits, context.run});
+  const StarSettings settings = starSettings (context.options);
   const std::vector<Index> own = cloud.own (block);
   const CsrLists beside_lists = cloud.gatherLists ("planes", "beside", own);
   CsrLists all_lists = cloud.nearest (own);

@@ -184,8 +184,7 @@ planStep (const Job& job, const Store& store)
   Points points;
   Report report;
   plan.sensor_origin = input.sensor_origin;
-  Problem problem = takePoints (
-      input, {context.options, context.limits, context.run, plan.sensor_origin}, points, report);
+  Problem problem = takePoints (input, context.options, context.run, points, report);
   if (!problem)
     problem = checkPoints (points);
   if (problem) {

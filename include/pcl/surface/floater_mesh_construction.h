@@ -20,9 +20,8 @@ namespace pcl {
  * mesher->reconstruct (triangles);
  * \endcode
  *
- * Each run takes the cloud, the indices and the search method of this object. Without a search
- * method the points are searched in parallel; one that is given is used in one thread. Options are
- * set, and results are read, in floater().
+ * Each run takes the cloud, the indices and the search method of this object. Options are set, and
+ * results are read, in floater().
  *
  * It does what FloaterReconstruction does: it needs no normals, does not throw, and after a failure
  * the output is empty, also without an input cloud.
@@ -38,8 +37,7 @@ public:
   /** \brief All options at their defaults, which need no tuning. */
   FloaterMeshConstruction () { check_tree_ = false; }
 
-  /** \brief What makes the mesh, to set its options and to read its results. Its cloud, indices and
-   * search method are replaced by those of this object when a run begins. */
+  /** \brief What makes the mesh, to set its options and to read its results. */
   FloaterReconstruction<PointT>& floater () { return floater_; }
   /** \brief What makes the mesh, to read its options and results. */
   const FloaterReconstruction<PointT>& floater () const { return floater_; }

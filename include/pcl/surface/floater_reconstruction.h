@@ -40,7 +40,6 @@ namespace pcl {
  * plane by Floater's meshless parameterization. The boundary loop is laid on a convex curve, and
  * every other point is a convex combination of its neighbours: one sparse linear system. The
  * Delaunay triangulation of the parameters gives the triangles.
- *
  * - \b View: a single scan, of which every point is visible from the place of its sensor, is the
  *   Delaunay triangulation of its rays, without the triangles in gaps of the view and across depth
  *   steps. Noise along the rays does not disturb it.

@@ -3,7 +3,7 @@
 // Scans after a voxel filter: no rays are left that tell of the sensor.
 #include "real_clouds.h"
 #include "scan_samples.h"
-#include "view/outlines.h"
+#include "view/ray_evidence.h"
 
 #include <gtest/gtest.h>
 

@@ -185,17 +185,15 @@ struct HoleOptions
 /// nothing is left, the run ends with RunStatus::DEGENERATE.
 struct TrimmingOptions
 {
-  double maximum_edge_length = 0.0; ///< longest edge allowed, in units of the cloud, 0 or more; 0:
-                                    ///< no limit
-  double maximum_edge_ratio = 0.0;  ///< longest edge allowed, in mean local spacings of its two
-      ///< ends, 0 or more; 0: no limit. Edges of a good mesh are up to
-      ///< about 3 long, and up to 6 where the sampling is uneven
+  double maximum_edge_length = 0.0; ///< longest edge, in units of the cloud, 0 or more; 0: no limit
+  double maximum_edge_ratio = 0.0;  ///< longest edge, in mean local spacings of its two ends, 0 or
+                                    ///< more; 0: no limit. Edges of a good mesh are up to about 3
+                                    ///< long, and up to 6 where the sampling is uneven
   /// Remove triangles until no two cross each other: the last resort after remove_self_intersections,
   /// for those who simulate, print or trace rays. At such places the mesh gets holes, mostly of a few
   /// triangles.
   bool open_self_intersections = false;
-  int minimum_component_size =
-      0; ///< remove components of fewer points, 0 or more; after the others
+  int minimum_component_size = 0; ///< remove components of fewer points, 0 or more; at the end
 };
 
 /// Scans: every point is visible from one viewpoint.

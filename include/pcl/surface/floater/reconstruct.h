@@ -78,20 +78,17 @@ struct Result
 /// makes surfaces of any topology: it assembles the triangles on which the Delaunay stars of
 /// neighbouring points agree, and fills holes by minimum-cost triangulations of their boundary
 /// loops. The disc method is meshless parameterization (Floater and Reimers 2001) as in TW 385. The
-/// view method triangulates the rays of a single scan. After the first two,
-/// points without a triangle are inserted, edges are flipped in space and folds are repaired.
+/// view method triangulates the rays of a single scan. After the first two, points without a triangle
+/// are inserted, edges are flipped in space and folds are repaired.
 ///
-/// Every component of the mesh faces outwards: a closed one encloses a positive volume; the wall of
-/// a hollow in another body faces into the hollow. A body with openings faces the side that is more
-/// visible from outside. A sheet or terrain faces up (+z; +y or +x where it is upright). A single
-/// scan faces its sensor, if known. Components that continue each other across a gap face alike.
-/// Oriented input normals come before these rules; Options::facing may ask for others.
-/// Report::facing_decisions lists uncertain results.
+/// Every component of the mesh faces as Options::facing asks; by Facing::AUTO, the wall of a hollow in
+/// another body faces into the hollow, and components that continue each other across a gap face
+/// alike. Report::facing_decisions lists uncertain results.
 ///
 /// Does not throw: a failure is a status, a message and an empty mesh. The result does not depend
-/// on the number of threads, or on the order of the points. A surface of
-/// 100,000 points takes 4 microseconds and 0.5 kB per point, a disc 10 microseconds and 1.5 kB (two
-/// cores); the factorization of a disc grows a little faster than the number of points.
+/// on the number of threads, or on the order of the points. A surface of 100,000 points takes 4
+/// microseconds and 0.5 kB per point, a disc 10 microseconds and 1.5 kB (two cores); the
+/// factorization of a disc grows a little faster than the number of points.
 /// \param input consumed: its arrays are freed as soon as they have been read
 PCL_FLOATER_EXPORT Result
 reconstruct (Input input, const Options& options);

@@ -121,12 +121,11 @@ public:
   void setUseInputNormals (bool use);
   bool getUseInputNormals () const; ///< see setUseInputNormals()
 
-  /** \brief Whether the mesh gets normals of its vertices; default false. They are the means of the
-   * normals of the triangles around a point, weighted by their angles there, and point to the front
-   * of the mesh; see vertexNormals(). A pcl::PolygonMesh then has them in the fields normal_x,
-   * normal_y and normal_z of its cloud, and a pcl::PointCloud in those of its points, if their type
-   * has normals. Normals of the input are replaced in the output, a curvature is not. Points in no
-   * triangle have (0, 0, 0). Takes 64 bytes per point and a tenth of the time of a run. */
+  /** \brief Whether the mesh gets normals of its vertices, see vertexNormals(); default false. A
+   * pcl::PolygonMesh then has them in the fields normal_x, normal_y and normal_z of its cloud, and a
+   * pcl::PointCloud in those of its points, if their type has normals. Normals of the input are
+   * replaced in the output, a curvature is not. Takes 64 bytes per point and a tenth of the time of a
+   * run. */
   void setComputeNormals (bool compute);
   bool getComputeNormals () const; ///< see setComputeNormals()
 
@@ -168,8 +167,7 @@ public:
    * instead. */
   std::vector<int> getPartIDs () const;
 
-  /** \brief The PointState of each point of the whole cloud. Empty if there is no mesh. As that of
-   * pcl::GreedyProjectionTriangulation, which numbers the points of setIndices() instead. */
+  /** \brief The PointState of each point of the whole cloud, otherwise as getPartIDs(). */
   std::vector<int> getPointStates () const;
   /** \} */
 

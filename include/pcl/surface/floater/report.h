@@ -192,13 +192,11 @@ struct MeshCheck
   std::int64_t genus = 0;                ///< handles, summed over the components
   std::size_t folds = 0;                 ///< edges whose triangles are folded by over 120 degrees
   std::size_t degenerate_triangles = 0;  ///< without area in the precision of the coordinates
-  std::size_t self_intersections = 0;    ///< pairs of triangles that share more than their common
-      ///< corners: they cross, touch or overlap. 0 without a search
-      ///< if Report::is_view
+  std::size_t self_intersections = 0;    ///< pairs of triangles that cross, touch or overlap beyond
+                                         ///< common corners. 0 without a search if Report::is_view
   bool has_more_self_intersections = false; ///< the search ended at its limit: there may be more
-  std::vector<std::array<std::uint32_t, 2>>
-      self_intersections_at;       ///< the first ten of them, each by a point of
-                                   ///< either triangle
+  /// The first ten of them, each by a point of either triangle.
+  std::vector<std::array<std::uint32_t, 2>> self_intersections_at;
   double largest_area_share = 0.0; ///< share of the area in the largest 1 % of the triangles; 0 of
                                    ///< fewer than 100, or if the mesh was made in parts
   double longest_edge = 0.0;       ///< in local spacings
@@ -236,25 +234,22 @@ struct Statistics : SystemStatistics
   std::size_t scatter_points = 0; ///< points of regions that are no surface at any scale, such as
                                   ///< leaves. Not searched in a view, in fewer than 320 points,
                                   ///< and without denoising if scatter is kept
-  std::size_t stacked_points =
-      0;                     ///< points that lie on others, nearer than three tenths of the local
-                             ///< spacing, and came into the mesh after these
-  double stack_height = 0.0; ///< median of their distances, in local spacings
+  std::size_t stacked_points = 0; ///< points nearer to others than three tenths of the local
+                                  ///< spacing, which came into the mesh after these
+  double stack_height = 0.0;      ///< median of their distances, in local spacings
   double largest_stack_height = 0.0; ///< maximum of these
   double noise = 0.0; ///< median over points of the standard deviation of the noise across the
                       ///< surface, in local spacings; below 0.15 it counts as 0. Not for views
   double noise_quantile_90 = 0.0;   ///< noise that 90 % of the points do not exceed
   double largest_noise = 0.0;       ///< maximum over all points
-  std::size_t projected_points = 0; ///< noisy points that were projected on local planes, to
-                                    ///< connect them
+  std::size_t projected_points = 0; ///< noisy points, connected by their places on local planes
   double coordinate_step = 0.0; ///< step to which coordinates seem to be rounded, on the axis where
                                 ///< it is widest, in local spacings; 0: none found
   std::size_t trimmed_triangles = 0;  ///< triangles cut off by TrimmingOptions
   std::size_t opened_triangles = 0;   ///< trimmed triangles that crossed others
   std::size_t trimmed_components = 0; ///< trimmed components that were too small
   std::size_t trimmed_points = 0;     ///< points that lost all their triangles by trimming
-  std::size_t view_steps = 0;   ///< scan: triangles left out at depth steps, between one surface
-                                ///< and another behind it
+  std::size_t view_steps = 0;   ///< scan: triangles left out at depth steps, to a surface behind
   std::size_t view_gaps = 0;    ///< scan: triangles left out where rays are missing
   std::size_t holes_filled = 0; ///< boundary loops of a surface that were filled
   std::size_t used_points = 0;  ///< points that are vertices of the mesh
@@ -281,8 +276,7 @@ struct Report
   Verdict verdict;               ///< how good the mesh is, why, and what helps
   std::vector<Finding> findings; ///< oddities of cloud and mesh: flaws, then doubts, then notes;
                                  ///< those that concern most first
-  std::vector<std::string>
-      warnings; ///< a sentence for each finding, and for options without effect
+  std::vector<std::string> warnings;  ///< a sentence for each finding and option without effect
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE
   std::string topology_reason;        ///< reason for this method, in a few words
   MeshCheck check;                    ///< final check of the mesh
