@@ -191,7 +191,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   const NeighborSettings neighbors{request.options.neighbors};
   Points net = points;
   net.projected = {};
-  chooseNet (net, geometry.neighbors, neighbors, request.limits.net, run, nullptr);
+  chooseNet (net, geometry.neighbors, neighbors, run, nullptr);
   if (net.stacked.of.empty ())
     net.projected = points.projected;
   else {

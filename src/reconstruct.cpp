@@ -55,7 +55,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                            ? known->neighborsOfStacks ()
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   if (!as_disc && neighbors.rows () > 0)
-    reportStacks (points, chooseNet (points, neighbors, settings, limits.net, run, &tree), report);
+    reportStacks (points, chooseNet (points, neighbors, settings, run, &tree), report);
   if (known != nullptr) { // the others will be those of its planes
     neighbors = {};
     tree.reset ();

@@ -8,14 +8,12 @@
 #include "core/run_context.h"
 #include "local/planes.h"
 #include "mesh/check.h"
-#include "points/net.h"
 #include "points/outliers.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
-  NetLimits net;
   OutlierLimits outliers;
   PlaneLimits planes;
   SheetLimits sheets;

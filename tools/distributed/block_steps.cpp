@@ -105,8 +105,7 @@ outliersStep (const Job& job, const Store& store, const Plan& plan)
   std::vector<Index> gross_outliers, outliers;
   Points points = readPoints (store, plan, gross_outliers);
   CsrLists neighbors = StoredCloud (context, {}).nearestOfAll ();
-  chooseNet (points, neighbors, {context.options.neighbors}, context.limits.net, context.run,
-             nullptr);
+  chooseNet (points, neighbors, {context.options.neighbors}, context.run, nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
   if (context.options.remove_outliers)
     outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
