@@ -37,9 +37,8 @@ outliersOf (const Points& points, const CsrLists& neighbors, const Request& requ
 {
   if (!request.options.remove_outliers)
     return {};
-  return exceptLoop (
-      findOutliers (points.positions, neighbors, request.run, request.limits.outliers), points,
-      request.options.disc.boundary.loop);
+  return exceptLoop (findOutliers (points.positions, neighbors, request.run), points,
+                     request.options.disc.boundary.loop);
 }
 
 Problem

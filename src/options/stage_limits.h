@@ -8,13 +8,11 @@
 #include "core/run_context.h"
 #include "local/planes.h"
 #include "mesh/check.h"
-#include "points/outliers.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
-  OutlierLimits outliers;
   PlaneLimits planes;
   SheetLimits sheets;
   SurfaceLimits surface;

@@ -108,7 +108,7 @@ outliersStep (const Job& job, const Store& store, const Plan& plan)
   chooseNet (points, neighbors, {context.options.neighbors}, context.run, nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
   if (context.options.remove_outliers)
-    outliers = findOutliers (points.positions, neighbors, context.run, context.limits.outliers);
+    outliers = findOutliers (points.positions, neighbors, context.run);
   if (!outliers.empty ())
     removePoints (points, outliers);
   if (!are_stacked.empty () || !outliers.empty ())
