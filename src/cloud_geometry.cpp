@@ -44,9 +44,9 @@ outliersOf (const Points& points, const CsrLists& neighbors, const Request& requ
 Problem
 checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  const Curves curves = findCurves (points.positions, -points.centre / points.scale, geometry,
-                                    static_cast<std::size_t> (request.options.neighbors.k),
-                                    request.limits.planes.least_aspect, request.run);
+  const Curves curves =
+      findCurves (points.positions, -points.centre / points.scale, geometry,
+                  static_cast<std::size_t> (request.options.neighbors.k), request.run);
   if (!curves.are_all)
     return {};
   const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
@@ -106,7 +106,7 @@ starSettings (const Request& request)
   settings.filter_sheets = options.filter_sheets;
   settings.with_offsets = asksForDisc (options);
   settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
-  settings.limits = request.limits.sheets;
+  settings.planes_of_all = options.disc.as_published;
   return settings;
 }
 
@@ -129,8 +129,8 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
   const RunContext& run = request.run;
   points.projected = projectNoisyPoints (points.positions, geometry.neighbors, noise, run);
   const StarSettings stars = starSettings (request);
-  LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                                       request.limits.planes);
+  LocalPlanes planes =
+      fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run);
   LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);
   keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
                  starAgreement (projected.stars, run), noise);

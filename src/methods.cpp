@@ -197,7 +197,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   else {
     const StarSettings stars = starSettings (request);
     LocalPlanes planes = beginPlanes (net, std::move (geometry.neighbors), {}, stars, run);
-    planes = fitLocalPlanes (net, std::move (planes), stars, run, request.limits.planes);
+    planes = fitLocalPlanes (net, std::move (planes), stars, run);
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
   }
   SurfaceSettings settings;
@@ -271,7 +271,7 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
   const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
-  const RowOf row_of = rowsBeside (points, planes, request.limits.planes);
+  const RowOf row_of = rowsBeside (points, planes);
   const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
   for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
     if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))

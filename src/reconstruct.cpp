@@ -44,7 +44,6 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                         KnownStages* known, Result& result)
 {
   const Options& options = request.options;
-  const Limits& limits = request.limits;
   const RunContext& run = request.run;
   Report& report = result.report;
   const bool as_disc = asksForDisc (options), may_be_seen = mayBeSeen (options);
@@ -85,13 +84,13 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (known != nullptr)
     begun = known->begunStars ();
   if (may_be_seen) {
-    const RowOf row_of = rowsBeside (points, planes, limits.planes);
+    const RowOf row_of = rowsBeside (points, planes);
     samples = takePatchSamples (points.positions, row_of);
     if (const std::optional<Problem> problem = reconstructFrom (row_of, SearchReason::UNEVEN))
       return *problem;
   }
   if (known == nullptr)
-    planes = fitLocalPlanes (points, std::move (planes), stars, run, limits.planes);
+    planes = fitLocalPlanes (points, std::move (planes), stars, run);
   const bool is_measured = options.denoise || dropsScatter (options);
   Noise noise;
   if (is_measured)
@@ -126,8 +125,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                   " on one; take a part that is a surface, smooth the cloud or thin it by a voxel "
                   "grid, use a method that smooths, such as Poisson reconstruction, or keep the "
                   "scatter"};
-    planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                             limits.planes);
+    planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run);
     noise = measureNoise (points.positions, planes.neighbors, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
     noise.is_strong = isStrongNow (DISTURBED);
@@ -180,14 +178,13 @@ reconstruct (Input input, const Options& options, const Limits& limits, KnownSta
   Problem problem;
   try {
     const Options effective = effectiveOptions (options);
-    const Limits effective_limits = effectiveLimits (limits, options);
     RunMonitor monitor (
         {options.stage_callback, options.progress_callback, options.cancelled_callback},
         result.report.statistics, asksForDisc (effective));
     const RunContext context (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();
-    problem = reconstructAny (input, {effective, effective_limits, context, input.sensor_origin},
-                              known, result);
+    problem =
+        reconstructAny (input, {effective, limits, context, input.sensor_origin}, known, result);
     describeFindings (result.report);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))

@@ -60,7 +60,7 @@ findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists
 
 Curves
 findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
-            std::size_t neighbors, double least_aspect, const RunContext& run)
+            std::size_t neighbors, const RunContext& run)
 {
   // At most this share of the points is joined to another curve. Parallel lines on a wavy sheet, up
   // to 30 times as far apart as their points, have 0.91 or more of their points joined, 40 times
@@ -79,7 +79,7 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
   for (std::size_t i = 0; i < n; i += stride) {
     const auto p = static_cast<Index> (i);
     const Row row = geometry.neighbors.first (p, neighbors);
-    if (const auto line = axis ? Line{} : lineThrough (positions, p, row, least_aspect))
+    if (const auto line = axis ? Line{} : lineThrough (positions, p, row))
       on_line.emplace_back (p, *line);
   }
   const auto points = static_cast<double> (on_line.size ());

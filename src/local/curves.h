@@ -19,6 +19,6 @@ struct Curves
 /// \param neighbors number of each point's neighbours that are nearest
 Curves
 findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
-            std::size_t neighbors, double least_aspect, const RunContext& run);
+            std::size_t neighbors, const RunContext& run);
 
 } // namespace pcl::floater

@@ -20,7 +20,7 @@ struct SheetLimits
 /// normals agree.
 inline bool
 onSameSheet (const Vector3d& normal, const Vector3d& other_normal, const Vector3d& offset,
-             const SheetLimits& limits)
+             const SheetLimits& limits = {})
 {
   const double limit = limits.plane_sine * offset.norm ();
   return std::abs (normal.dot (offset)) <= limit && std::abs (other_normal.dot (offset)) <= limit &&
@@ -33,19 +33,9 @@ onSameSheet (const Vector3d& normal, const Vector3d& other_normal, const Vector3
 std::vector<float>
 localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run);
 
-/// Thresholds for the sheet of a point. The first two were chosen on the clouds of the first
-/// benchmark, and are fragile: a fifth more or less of either costs 2 to 4 of 18 clean clouds there
-/// (test/benchmark/flaws.py shows the effect of changes).
-struct PlaneLimits
-{
-  std::size_t core_points = 8; ///< nearest neighbours of the first plane: about the first ring of
-                               ///< an even sampling, and a little more
-  double sheet_sine = 0.5;     ///< of the angle, 30 degrees, between the first plane and a
-                               ///< neighbour of the second fit
-  double least_aspect = 0.05;  ///< of the points of the first plane (see Plane::aspect); neighbours
-                               ///< are added until it is reached. Points on a line with noise of
-                               ///< one step are below, a third of an evenly sampled disc is above
-};
+/// Aspect of points (see Plane::aspect) below which they lie on a line: points on one with noise of one
+/// step are below, a third of an evenly sampled disc is above.
+constexpr double LINE_ASPECT = 0.05;
 
 /// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
 /// own. At a sharp edge the least-squares plane follows one of the faces; the mean lies between

@@ -115,14 +115,14 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
   constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
   const Vector3d& here = positions_[p];
   const Row around = planes_.neighbors.row (p);
-  std::optional<Line> line = lineThrough (positions_, p, around, least_aspect_);
+  std::optional<Line> line = lineThrough (positions_, p, around);
   // Or through the nearer half, if these lie on a line much more closely. Where the farther half has a
   // few points of one line beside, but none of the other, these neither surround the point nor fix its
   // plane.
   if (!line && around.size () > FEWEST)
     line = lineThrough (positions_, p,
                         planes_.neighbors.first (p, std::max (FEWEST, around.size () / 2)),
-                        CLOSELY * least_aspect_);
+                        CLOSELY * LINE_ASPECT);
   if (!line)
     return 0.0F;
   // The tree may return points behind the plane of its search, which depends on its nodes: they are
@@ -165,8 +165,7 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
 }
 
 BesideLines
-findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                 const RunContext& run)
+findBesideLines (const Positions& positions, const LocalPlanes& planes, const RunContext& run)
 {
   const std::size_t n = positions.size ();
   BesideLines beside;
@@ -175,7 +174,7 @@ findBesideLines (const Positions& positions, const LocalPlanes& planes, double l
   lists.offsets.assign (n + 1, 0);
   RangeLists<Index> ranges (n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    BesideSearch search (positions, planes, least_aspect);
+    BesideSearch search (positions, planes);
     std::vector<Index> row;
     for (auto p = static_cast<Index> (first); p < last; ++p) {
       const Row known = planes.neighbors.row (p);
@@ -259,7 +258,7 @@ StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& s
   const auto is_ahead = [&] (const Neighbor& neighbor, const Vector3d& position) {
     const double along = ahead.dot (position - here);
     return along > 0.0 && along * along >= MOST_COSINE * MOST_COSINE * neighbor.sqr_distance &&
-           isNew (centre, neighbor, neighbor.sqr_distance, sheets_);
+           isNew (centre, neighbor, neighbor.sqr_distance);
   };
   planes_.tree->nearestIf (here, ahead, centre.farthest, ADDED, is_ahead, found_);
   planes_.tree->looked (here, reachOfSearch (found_, ADDED, centre.farthest));

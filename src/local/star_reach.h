@@ -17,9 +17,8 @@ namespace pcl::floater {
 constexpr float REACH_AS_SPACING = 0.5F;
 
 /// The line through a point and its neighbours, if they lie on one.
-/// \param least_aspect see PlaneLimits
 std::optional<Line>
-lineThrough (const Positions& positions, Index p, Row row, double least_aspect);
+lineThrough (const Positions& positions, Index p, Row row, double least_aspect = LINE_ASPECT);
 
 /// Whether a point, at an offset from one on a line, lies beside the line.
 bool
@@ -49,8 +48,8 @@ class BesideSearch
 {
 public:
   /// \param planes with neighbours, spacing and tree; must outlive this
-  BesideSearch (const Positions& positions, const LocalPlanes& planes, double least_aspect)
-      : positions_ (positions), planes_ (planes), least_aspect_ (least_aspect)
+  BesideSearch (const Positions& positions, const LocalPlanes& planes)
+      : positions_ (positions), planes_ (planes)
   {
   }
 
@@ -61,15 +60,13 @@ public:
 private:
   const Positions& positions_;
   const LocalPlanes& planes_;
-  double least_aspect_;
   std::array<std::vector<Neighbor>, 2> found_on_; // the sides of the last point on a line
 };
 
 /// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
 /// \param planes with neighbours, spacing and tree
 BesideLines
-findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                 const RunContext& run);
+findBesideLines (const Positions& positions, const LocalPlanes& planes, const RunContext& run);
 
 /// Appends lists to others, row by row, in place. O(entries).
 void
@@ -92,8 +89,8 @@ class StarReach
 {
 public:
   /// \param positions, planes must outlive this
-  StarReach (const Positions& positions, const LocalPlanes& planes, const SheetLimits& sheets)
-      : positions_ (positions), planes_ (planes), sheets_ (sheets)
+  StarReach (const Positions& positions, const LocalPlanes& planes)
+      : positions_ (positions), planes_ (planes)
   {
   }
 
@@ -120,13 +117,12 @@ private:
   };
 
   bool isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
-              const SheetLimits& sheets) const;
+              const SheetLimits& sheets = {}) const;
   void lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star);
   void lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b);
 
   const Positions& positions_;
   const LocalPlanes& planes_;
-  SheetLimits sheets_;
   PlanarStar planar_star_;
   std::vector<Index> added_;
   std::vector<Neighbor> found_;

@@ -26,7 +26,7 @@ public:
         beyond_ (beyond)
   {
     if (beyond != nullptr)
-      reach_.emplace (positions, *beyond, settings.limits);
+      reach_.emplace (positions, *beyond);
   }
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
@@ -92,7 +92,7 @@ private:
 
   bool leavesPlanes (const Vector3d& normal, Index q, const Vector3d& offset) const
   {
-    const double limit = settings_.limits.plane_sine * offset.norm ();
+    const double limit = SheetLimits{}.plane_sine * offset.norm ();
     return std::abs (normal.dot (offset)) > limit &&
            std::abs (normals_[q].cast<double> ().dot (offset)) > limit;
   }
@@ -115,7 +115,7 @@ private:
       const Vector3d offset = positions_[q] - positions_[p];
       if (tier == Tier::ALL ||
           (tier == Tier::EITHER_PLANE
-               ? onSameSheet (frame.normal, normals_[q].cast<double> (), offset, settings_.limits)
+               ? onSameSheet (frame.normal, normals_[q].cast<double> (), offset)
                : !leavesPlanes (frame.normal, q, offset)))
         addCandidate (p, q, frame, star);
     }

@@ -21,9 +21,9 @@ struct StarSettings
 {
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
   StarKind kind = StarKind::DELAUNAY;
-  bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
-  bool with_offsets = true;  ///< keep offsets_in_plane: 16 bytes per entry
-  SheetLimits limits{};
+  bool reach_beyond = false;  ///< see StarReach; for makeLocalGeometry
+  bool with_offsets = true;   ///< keep offsets_in_plane: 16 bytes per entry
+  bool planes_of_all = false; ///< tangent planes use all neighbours (TW 385, section 4.1)
 };
 
 /// Stars of the points in their tangent planes: the neighbours connected to the centre,

@@ -253,8 +253,7 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Po
     planar.clear ();
     for (const Index q : neighbors.row (p)) {
       const Vector3d offset = positions[q] - positions[p];
-      if (!same_sheet ||
-          onSameSheet (frame.normal, normals[q].cast<double> (), offset, limits.sectors.sheet))
+      if (!same_sheet || onSameSheet (frame.normal, normals[q].cast<double> (), offset))
         planar.push_back ({frame.project (offset), q});
     }
     star.order (planar);

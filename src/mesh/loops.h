@@ -54,7 +54,6 @@ struct EmptySectorLimits
 {
   double angle = 130.0; ///< degrees; a larger sector without neighbours counts as empty. Theory:
                         ///< 180 minus the bend of a hole that is 6 spacings wide
-  SheetLimits sheet;    ///< which neighbours lie on another sheet, as for the stars
 };
 
 /// Features that separate boundaries of the surface from gaps in the sampling. All but `edge`

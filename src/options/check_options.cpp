@@ -158,17 +158,6 @@ effectiveOptions (const Options& options)
   return effective;
 }
 
-Limits
-effectiveLimits (const Limits& limits, const Options& options)
-{
-  Limits effective = limits;
-  if (!options.disc.as_published)
-    return effective;
-  effective.planes.core_points = std::numeric_limits<std::size_t>::max ();
-  effective.planes.sheet_sine = 1.0;
-  return effective;
-}
-
 void
 choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given)
 {

@@ -17,11 +17,6 @@ namespace pcl::floater {
 Options
 effectiveOptions (const Options& options);
 
-/// The limits of a run: as given, but with DiscOptions::as_published tangent planes use all
-/// neighbours (section 4.1).
-Limits
-effectiveLimits (const Limits& limits, const Options& options);
-
 /// Sets the choices of TW 385 for a disc where the user gave none: the boundary method, and for
 /// UMFPACK the ordering.
 void

@@ -6,15 +6,12 @@
 
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
-#include "local/planes.h"
 #include "mesh/check.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
-  PlaneLimits planes;
-  SheetLimits sheets;
   SurfaceLimits surface;
   ViewLimits view;
   CheckLimits check;

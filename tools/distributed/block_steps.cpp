@@ -141,8 +141,7 @@ planesStep (const StepContext& context, std::size_t block)
     around.normals = cloud.given<Eigen::Vector3f> ("normals", search.points ());
     planes = beginPlanes (around, toPlaces (search, nearest), search.makeTree (context.run),
                           settings, context.run);
-    planes =
-        fitLocalPlanes (around, std::move (planes), settings, context.run, context.limits.planes);
+    planes = fitLocalPlanes (around, std::move (planes), settings, context.run);
   } while (search.widen ());
   const CsrLists beside = ofOwn (search, planes.beside.neighbors);
   put (context, "planes", block,

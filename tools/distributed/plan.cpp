@@ -192,7 +192,7 @@ planStep (const Job& job, const Store& store)
                      [] (const Eigen::Vector3d& position) { return position.allFinite (); }));
   const RunContext run (job.join_threads);
   const Options options = effectiveOptions (line.options);
-  const Limits limits = effectiveLimits ({}, line.options);
+  const Limits limits;
   Points points;
   Report report;
   const std::array<double, 3> sensor_origin = input.sensor_origin;

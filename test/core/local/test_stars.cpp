@@ -127,7 +127,7 @@ TEST (TangentPlanes, RowsOfSinglePointsAreThoseOfAll)
   settings.reach_beyond = true;
   const LocalPlanes begun = beginPlanes (points, findNeighbors (points, {}, 1), {}, settings, 1);
   const LocalPlanes fitted = fitLocalPlanes (points, begun, settings, 1);
-  const RowOf row_of = rowsBeside (points, begun, {});
+  const RowOf row_of = rowsBeside (points, begun);
   EXPECT_GT (fitted.neighbors.ids.size (), begun.neighbors.ids.size () + points.size ());
   for (Index p = static_cast<Index> (points.size ()); p-- > 0;) { // in another order
     const Row own = row_of (p), all = fitted.neighbors.row (p);
