@@ -170,9 +170,7 @@ findBesideLines (const Positions& positions, const LocalPlanes& planes, const Ru
   const std::size_t n = positions.size ();
   BesideLines beside;
   beside.reach.resize (n);
-  CsrLists& lists = beside.neighbors;
-  lists.offsets.assign (n + 1, 0);
-  RangeLists<Index> ranges (n);
+  RangeRows lists (n, n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     BesideSearch search (positions, planes);
     std::vector<Index> row;
@@ -180,12 +178,11 @@ findBesideLines (const Positions& positions, const LocalPlanes& planes, const Ru
       const Row known = planes.neighbors.row (p);
       row.assign (known.begin (), known.end ());
       beside.reach[p] = search.extend (p, row);
-      lists.offsets[p + 1] = static_cast<Index> (row.size () - known.size ());
-      ranges.of (first).insert (ranges.of (first).end (), row.begin () + known.size (), row.end ());
+      for (std::size_t i = known.size (); i < row.size (); ++i)
+        lists.add (first, p, row[i]);
     }
   });
-  sumRowLengths (lists.offsets);
-  lists.ids = ranges.join ();
+  beside.neighbors = lists.join ();
   return beside;
 }
 

@@ -153,26 +153,20 @@ CsrLists
 searchEach (const Rows& rows, const NeighborOptions& options, Search&& search,
             const RunContext& run)
 {
-  CsrLists lists;
-  lists.offsets.assign (rows.size () + 1, 0);
-  RangeLists<Index> ranges (rows.size ());
+  const bool in_balls = isInBalls (options.kind);
+  RangeRows lists (rows.size (), rows.size ());
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t i = first; i < last; ++i) {
-      const bool in_balls = isInBalls (options.kind);
       search (rows[i], KdTree::EVERYWHERE,
               in_balls ? SPACING_NEIGHBORS : static_cast<std::size_t> (options.k), found);
       if (in_balls)
         search (rows[i], ballRadius (found, options.ball_radius), MOST_IN_BALL, found);
       for (const Neighbor& neighbor : found)
-        ranges.of (first).push_back (neighbor.point);
-      lists.offsets[i + 1] = static_cast<Index> (found.size ());
+        lists.add (first, i, neighbor.point);
     }
   });
-  requireListed (ranges.size ());
-  sumRowLengths (lists.offsets);
-  lists.ids = ranges.join ();
-  return lists;
+  return lists.join ();
 }
 
 CsrLists
