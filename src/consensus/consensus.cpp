@@ -172,15 +172,10 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
     std::vector<Candidate>& range = ranges.of (first);
     range.reserve (2 * (last - first));
     for (auto p = static_cast<Index> (first); p < last; ++p) {
-      const Row row = stars.neighbors.row (p);
-      if (row.size () < 2)
-        continue;
-      const std::size_t sectors = stars.open[p] != 0 ? row.size () - 1 : row.size ();
-      for (std::size_t s = 0; s < sectors; ++s) {
-        const Index q = row[s], r = row[s + 1 == row.size () ? 0 : s + 1];
+      anyTriangle (stars, p, [&] (Index q, Index r) {
         const bool in_q = hasTriangle (stars, q, r, p), in_r = hasTriangle (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
-          continue; // q or r is its first corner
+          return false; // q or r is its first corner
         Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, false, 0.0F,
                             0.0F};
         double step = (spacing[p] + spacing[q] + spacing[r]) / 3.0;
@@ -194,7 +189,8 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
         if (candidate.circumradius_ratio <= LARGEST_CIRCUMRADIUS[rank] &&
             candidate.normal_agreement >= LEAST_AGREEMENT[rank])
           range.push_back (candidate);
-      }
+        return false;
+      });
     }
   });
   return ranges.join ();
@@ -236,7 +232,7 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
   std::vector<const Candidate*> voters;
   for (std::size_t i = doubtful; i < fewer_votes; ++i)
     voters.push_back (&candidates[ids[i]]);
-  builder.orientation ().vote (voters.data (), voters.data () + voters.size (), run);
+  builder.orientation ().vote (voters, run);
   offer (doubtful, ids.size ());
 
   const CsrLists at_corner = makeCsrLists (positions.size (), [&] (const auto& emit) {

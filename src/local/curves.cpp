@@ -90,15 +90,11 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
     return axis ? offset[*axis] != 0.0 : liesBeside (at.second, offset);
   };
   const auto isJoined = [&] (const std::pair<Index, Line>& at) {
-    const Index p = at.first;
-    const Row row = geometry.stars.neighbors.row (p);
-    for (std::size_t i = 0; i + geometry.stars.open[p] < row.size (); ++i) {
-      const Index q = row[i], r = row[i + 1 < row.size () ? i + 1 : 0];
-      if ((isBeside (at, positions[q]) || isBeside (at, positions[r])) &&
-          hasTriangle (geometry.stars, q, r, p) && hasTriangle (geometry.stars, r, p, q))
-        return true;
-    }
-    return false;
+    return anyTriangle (geometry.stars, at.first, [&] (Index q, Index r) {
+      return (isBeside (at, positions[q]) || isBeside (at, positions[r])) &&
+             hasTriangle (geometry.stars, q, r, at.first) &&
+             hasTriangle (geometry.stars, r, at.first, q);
+    });
   };
   const auto joined = std::count_if (on_line.begin (), on_line.end (), isJoined);
   if (static_cast<double> (joined) > JOINED * points)

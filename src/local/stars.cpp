@@ -228,22 +228,6 @@ finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
   return begun;
 }
 
-bool
-hasTriangle (const Stars& stars, Index p, Index q, Index r)
-{
-  const Row row = stars.neighbors.row (p);
-  const std::size_t count = row.size ();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (row[i] != q)
-      continue;
-    const bool last = i + 1 == count;
-    if (!(last && stars.open[p] != 0) && row[last ? 0 : i + 1] == r)
-      return true;
-    return !(i == 0 && stars.open[p] != 0) && row[i == 0 ? count - 1 : i - 1] == r;
-  }
-  return false;
-}
-
 std::vector<float>
 starAgreement (const Stars& stars, const RunContext& run)
 {

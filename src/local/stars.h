@@ -22,7 +22,7 @@ struct StarSettings
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
   StarKind kind = StarKind::DELAUNAY;
   bool reach_beyond = false;  ///< see StarReach; for makeLocalGeometry
-  bool with_offsets = true;   ///< keep offsets_in_plane: 16 bytes per entry
+  bool with_offsets = true;   ///< keep offsets_in_plane: 16 bytes per entry; not for finishStars
   bool planes_of_all = false; ///< tangent planes use all neighbours (TW 385, section 4.1)
 };
 
@@ -80,9 +80,26 @@ Stars
 finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
              const StarSettings& settings, const RunContext& run);
 
-/// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).
+/// Whether test (q, r) is true for a triangle of the star of p with q and r, anti-clockwise. The first
+/// such triangle is the last one tested. O(neighbours in the star).
+template <typename Test>
 bool
-hasTriangle (const Stars& stars, Index p, Index q, Index r);
+anyTriangle (const Stars& stars, Index p, Test&& test)
+{
+  const Row row = stars.neighbors.row (p);
+  for (std::size_t i = 0; i + stars.open[p] < row.size (); ++i)
+    if (test (row[i], row[i + 1 < row.size () ? i + 1 : 0]))
+      return true;
+  return false;
+}
+
+/// Whether the star of p has a triangle with q and r, in either order. O(neighbours in the star).
+inline bool
+hasTriangle (const Stars& stars, Index p, Index q, Index r)
+{
+  return anyTriangle (
+      stars, p, [q, r] (Index a, Index b) { return (a == q && b == r) || (a == r && b == q); });
+}
 
 /// Share of the neighbours in each point's star that have the point in theirs; 0 without
 /// neighbours. It is 1 for the Delaunay triangulation of a smooth, densely sampled surface, also on

@@ -42,7 +42,7 @@ TEST (Orientation, TheMajorityOfVotesDecides)
     std::vector<const Candidate*> voters;
     for (const Candidate& each : candidates)
       voters.push_back (&each);
-    orientation.vote (voters.data (), voters.data () + voters.size (), 1);
+    orientation.vote (voters, 1);
     std::vector<Eigen::Vector3f> normals (6, Eigen::Vector3f::UnitZ ());
     orientation.turn (normals, 1);
     EXPECT_EQ (normals[0].z () != normals[3].z (), is_more_opposite);
