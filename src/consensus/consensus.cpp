@@ -77,7 +77,7 @@ class ConsensusBuilder
 {
 public:
   ConsensusBuilder (const Positions& positions, const Normals& normals)
-      : positions_ (positions), normals_ (normals), orientation_ (positions.size ()),
+      : orientation (positions.size ()), positions_ (positions), normals_ (normals),
         last_sector_ (positions.size (), UNWATCHED)
   {
   }
@@ -96,16 +96,16 @@ public:
   {
     if (test_sectors && overlapsTaken (candidate.corners))
       return false;
-    const bool fits = orientation_.join (candidate.corners, candidate.clockwise);
+    const bool fits = orientation.join (candidate.corners, candidate.clockwise);
     if (fits)
       occupy (candidate.corners);
     else if (candidate.votes == 3)
-      seam_.push_back (candidate.corners);
+      seam.push_back (candidate.corners);
     return fits;
   }
 
-  Orientation& orientation () { return orientation_; }
-  std::vector<Triangle>& seam () { return seam_; }
+  Orientation orientation;
+  std::vector<Triangle> seam; // see Consensus
 
 private:
   static constexpr Index UNWATCHED = NONE - 1;
@@ -155,10 +155,8 @@ private:
 
   const Positions& positions_;
   const Normals& normals_;
-  Orientation orientation_;
   std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
   std::vector<TakenSector> sectors_;
-  std::vector<Triangle> seam_;
 };
 
 } // namespace
@@ -229,10 +227,7 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
     }
   };
   offer (0, doubtful);
-  std::vector<const Candidate*> voters;
-  for (std::size_t i = doubtful; i < fewer_votes; ++i)
-    voters.push_back (&candidates[ids[i]]);
-  builder.orientation ().vote (voters, run);
+  builder.orientation.vote (candidates, {ids.data () + doubtful, ids.data () + fewer_votes}, run);
   offer (doubtful, ids.size ());
 
   const CsrLists at_corner = makeCsrLists (positions.size (), [&] (const auto& emit) {
@@ -246,11 +241,11 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
   for (const Index c : at_corner.ids) {
     const Candidate& candidate = candidates[c];
     consensus.triangles.push_back (
-        builder.orientation ().turned (candidate.corners, candidate.clockwise));
+        builder.orientation.turned (candidate.corners, candidate.clockwise));
     consensus.votes.push_back (candidate.votes);
   }
-  consensus.seam = std::move (builder.seam ());
-  builder.orientation ().turn (normals, run);
+  consensus.seam = std::move (builder.seam);
+  builder.orientation.turn (normals, run);
   return consensus;
 }
 

@@ -48,7 +48,8 @@ public:
   /// may be wrong. Rounds as in Boruvka's algorithm: every set is joined to the one with the most
   /// votes, until no candidate connects two sets. O(m log m) for m candidates in each of O(log m)
   /// rounds.
-  void vote (const std::vector<const Candidate*>& candidates, const RunContext& run);
+  /// \param voters of the candidates
+  void vote (const std::vector<Candidate>& candidates, const Row& voters, const RunContext& run);
 
   /// The corners, anti-clockwise seen from the front of their set.
   Triangle turned (Triangle corners, std::uint8_t clockwise);

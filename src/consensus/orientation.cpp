@@ -34,19 +34,21 @@ Orientation::join (const Triangle& corners, std::uint8_t clockwise)
 }
 
 void
-Orientation::vote (const std::vector<const Candidate*>& candidates, const RunContext& run)
+Orientation::vote (const std::vector<Candidate>& candidates, const Row& voters,
+                   const RunContext& run)
 {
   ProgressLoop progress (run);
   while (true) {
     // Of two sets, by their representatives: positive for the same side, negative for opposite ones.
     std::map<std::pair<Index, Index>, int> sums;
-    for (const Candidate* const c : candidates) {
+    for (const Index voter : voters) {
       progress.next ();
+      const Candidate& c = candidates[voter];
       for (std::size_t i = 0; i < 3; ++i) {
-        const SignedSets::Place a = placeOf (c->corners, c->clockwise, i),
-                                b = placeOf (c->corners, c->clockwise, (i + 1U) % 3U);
+        const SignedSets::Place a = placeOf (c.corners, c.clockwise, i),
+                                b = placeOf (c.corners, c.clockwise, (i + 1U) % 3U);
         if (a.root != b.root)
-          sums[std::minmax (a.root, b.root)] += a.flipped != b.flipped ? -c->votes : c->votes;
+          sums[std::minmax (a.root, b.root)] += a.flipped != b.flipped ? -c.votes : c.votes;
       }
     }
     if (sums.empty ())
