@@ -57,12 +57,6 @@ isCorner (const Vector2d& a, const Vector2d& b, const Vector2d& c)
   return ab.dot (bc) > 0.0 ? !isAtMostCollinear (turn, ab, bc) : turn > 0.0;
 }
 
-bool
-isBefore (const PlanarNeighbor& a, const PlanarNeighbor& b)
-{
-  return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
-}
-
 // Sorts by the number of smaller angles. For few neighbours, comparing all pairs without branches
 // is faster than a sort with many mispredicted branches. Uses single precision, four at once.
 // \return false if two angles are equal in single precision: neither list is then sorted
@@ -97,7 +91,9 @@ sortByAngle (std::vector<PlanarNeighbor>& neighbors, std::vector<PlanarNeighbor>
     neighbor.angle = pseudoAngle (neighbor.offset);
   const bool are_few = !neighbors.empty () && neighbors.size () <= MOST_COUNTED;
   if (!are_few || !sortByCounting (neighbors, unsorted))
-    std::sort (neighbors.begin (), neighbors.end (), isBefore);
+    std::sort (neighbors.begin (), neighbors.end (), [] (const auto& a, const auto& b) {
+      return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
+    });
 }
 
 } // namespace

@@ -43,13 +43,6 @@ middleOfGap (const std::vector<PlanarNeighbor>& star)
   return is_reflex ? Vector2d (-sum.normalized ()) : Vector2d (sum.normalized ());
 }
 
-// Radius that a search for `wanted` points within `radius` has covered.
-double
-reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double radius)
-{
-  return found.size () == wanted ? std::sqrt (found.back ().sqr_distance) : radius;
-}
-
 // Distance to which far neighbours of a point are searched, by its nearest neighbours. Where points on
 // a line are strewn, those nearest may be close to each other by chance, and tell nothing of the
 // steps around; the whole row, which goes to either side, does.
@@ -148,9 +141,9 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
                               bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
                               return is_beside (other, position);
                             });
-    planes_.tree->nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest, ADDED,
-                             is_beside, found);
-    planes_.tree->looked (here, reachOfSearch (found, ADDED, farthest));
+    planes_.tree->looked (here, planes_.tree->nearestIf (
+                                    here, ahead, is_bounded ? std::min (bound, farthest) : farthest,
+                                    ADDED, is_beside, found));
     if (found.empty ()) // beside the last line
       return is_first ? 0.0F : static_cast<float> (nearest);
     const double distance = std::sqrt (found.front ().sqr_distance);
@@ -257,8 +250,8 @@ StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& s
     return along > 0.0 && along * along >= MOST_COSINE * MOST_COSINE * neighbor.sqr_distance &&
            isNew (centre, neighbor, neighbor.sqr_distance);
   };
-  planes_.tree->nearestIf (here, ahead, centre.farthest, ADDED, is_ahead, found_);
-  planes_.tree->looked (here, reachOfSearch (found_, ADDED, centre.farthest));
+  planes_.tree->looked (
+      here, planes_.tree->nearestIf (here, ahead, centre.farthest, ADDED, is_ahead, found_));
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
@@ -287,9 +280,9 @@ StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const 
            isNew (centre, neighbor, offset.squaredNorm (), CIRCLE_SHEET);
   };
   const double radius = std::sqrt (sqr_radius);
-  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Vector3d::Zero (), radius, ADDED,
-                           is_inside, found_);
-  planes_.tree->looked (here, radius + reachOfSearch (found_, ADDED, radius));
+  const double covered = planes_.tree->nearestIf (
+      here + inSpace (centre.frame, middle), Vector3d::Zero (), radius, ADDED, is_inside, found_);
+  planes_.tree->looked (here, radius + covered);
   for (const Neighbor& neighbor : found_)
     added_.push_back (neighbor.point);
 }
