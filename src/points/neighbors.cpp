@@ -246,24 +246,16 @@ renewNeighbors (const Points& points, const std::vector<Index>& removed, const C
         !isGone (p) && std::any_of (row.begin (), row.end (), isGone))
       changed.push_back (number[p]);
   const CsrLists renewed = findNeighborsOf (Rows::of (changed), points, settings, run);
-  CsrLists lists;
-  lists.offsets.reserve (kept + std::size_t{1});
-  lists.offsets.push_back (0);
-  lists.ids.reserve (neighbors.ids.size ());
-  std::size_t next = 0; // among the changed
-  for (Index p = 0; p < number.size (); ++p) {
-    if (isGone (p))
-      continue;
-    if (next < changed.size () && changed[next] == number[p]) {
-      const Row row = renewed.row (next++);
-      lists.ids.insert (lists.ids.end (), row.begin (), row.end ());
+  return makeCsrLists (kept, [&] (const auto& emit) {
+    std::size_t next = 0; // among the changed
+    for (Index p = 0; p < number.size (); ++p) {
+      if (isGone (p))
+        continue;
+      const bool is_changed = next < changed.size () && changed[next] == number[p];
+      for (const Index q : is_changed ? renewed.row (next++) : neighbors.row (p))
+        emit (number[p], is_changed ? q : number[q]);
     }
-    else
-      for (const Index q : neighbors.row (p))
-        lists.ids.push_back (number[q]);
-    lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
-  }
-  return lists;
+  });
 }
 
 } // namespace pcl::floater
