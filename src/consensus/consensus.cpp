@@ -23,24 +23,13 @@ constexpr std::size_t AGREEMENT_RANKS = 32;
 // unless it contradicts the orientation. Cosines above 0.875.
 constexpr std::size_t SURE_RANKS = 4;
 
-// Class of a candidate's normal agreement: 0 for the best, below AGREEMENT_RANKS.
-std::size_t
-normalAgreementRank (const Candidate& candidate)
-{
-  const auto steps = static_cast<std::size_t> ((1.0F - candidate.normal_agreement) *
-                                               static_cast<float> (AGREEMENT_RANKS));
-  return std::min (steps, AGREEMENT_RANKS - 1);
-}
-
-// Sets the normal agreement and `clockwise` from the corners.
+// Sets the normal agreement and `clockwise` of a new candidate from the corners.
 void
 setNormalAgreement (const Positions& positions, const Normals& normals, Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
   const Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
   const Vector3f unit = (normal / normal.norm ()).cast<float> ();
-  candidate.normal_agreement = 1.0F;
-  candidate.clockwise = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3f& at_corner = normals[candidate.corners[i]];
     candidate.normal_agreement =
@@ -174,8 +163,7 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
         const bool in_q = hasTriangle (stars, q, r, p), in_r = hasTriangle (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
           return false; // q or r is its first corner
-        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, false, 0.0F,
-                            0.0F};
+        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r)};
         double step = (spacing[p] + spacing[q] + spacing[r]) / 3.0;
         if (const std::vector<float>& reach = stars.reach; !reach.empty ())
           step = std::max (step, static_cast<double> (REACH_AS_SPACING *
@@ -201,8 +189,11 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
   // In the order of their offers: those of three votes by their class of normal agreement, so that the
   // orientation spreads along triangles that agree best, like a minimum spanning forest.
   CsrLists order = makeCsrLists (AGREEMENT_RANKS + 1, [&] (const auto& emit) {
-    for (Index c = 0; c < candidates.size (); ++c)
-      emit (candidates[c].votes == 3 ? normalAgreementRank (candidates[c]) : AGREEMENT_RANKS, c);
+    for (Index c = 0; c < candidates.size (); ++c) {
+      const auto steps = static_cast<std::size_t> ((1.0F - candidates[c].normal_agreement) *
+                                                   static_cast<float> (AGREEMENT_RANKS));
+      emit (candidates[c].votes == 3 ? std::min (steps, AGREEMENT_RANKS - 1) : AGREEMENT_RANKS, c);
+    }
   });
   std::vector<Index>& ids = order.ids;
   const std::size_t doubtful = order.offsets[SURE_RANKS]; // from there on

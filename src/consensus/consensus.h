@@ -12,13 +12,13 @@ namespace pcl::floater {
 /// A triangle in the stars of one, two or all three of its corners.
 struct Candidate
 {
-  Triangle corners;         ///< the first is the smallest one whose star has the triangle;
-                            ///< anti-clockwise seen from the normal of that corner
-  std::uint8_t votes;       ///< corners whose stars have it, 1 to 3
-  std::uint8_t clockwise;   ///< bit i: clockwise seen from the normal of corner i
-  bool is_taken;            ///< into the consensus
-  float circumradius_ratio; ///< circumradius over the mean spacing of its corners
-  float normal_agreement;   ///< least |cosine| between its normal and those of its corners
+  Triangle corners;                ///< the first is the smallest one whose star has the triangle;
+                                   ///< anti-clockwise seen from the normal of that corner
+  std::uint8_t votes;              ///< corners whose stars have it, 1 to 3
+  std::uint8_t clockwise = 0;      ///< bit i: clockwise seen from the normal of corner i
+  bool is_taken = false;           ///< into the consensus
+  float circumradius_ratio = 0.0F; ///< circumradius over the mean spacing of its corners
+  float normal_agreement = 1.0F;   ///< least |cosine| between its normal and those of its corners
 };
 
 /// The triangles of all stars that are neither too large nor too steep, each once, ordered by their
