@@ -38,17 +38,4 @@ meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals
   return length > 0.0 ? Vector3d (sum / length) : normal;
 }
 
-Normals
-smoothedNormals (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
-                 const RunContext& run)
-{
-  constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal at a sharp edge
-  Normals smoothed (normals.size ());
-  parallelPoints (run, normals.size (), [&] (Index p) {
-    const Vector3f mean = meanNormal (positions, neighbors, normals, p).cast<float> ();
-    smoothed[p] = std::abs (mean.dot (normals[p])) < EDGE ? mean : normals[p];
-  });
-  return smoothed;
-}
-
 } // namespace pcl::floater

@@ -43,10 +43,4 @@ constexpr double LINE_ASPECT = 0.05;
 Vector3d
 meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals& normals, Index p);
 
-/// The mean normal of each point where it is more than 26 degrees off the point's normal; otherwise
-/// the point's normal. O(n).
-Normals
-smoothedNormals (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
-                 const RunContext& run);
-
 } // namespace pcl::floater
