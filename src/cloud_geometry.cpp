@@ -44,14 +44,14 @@ outliersOf (const Points& points, const CsrLists& neighbors, const Request& requ
 Problem
 checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  const Curves curves =
+  const std::optional<double> times =
       findCurves (points.positions, -points.centre / points.scale, geometry,
                   static_cast<std::size_t> (request.options.neighbors.k), request.run);
-  if (!curves.are_all)
+  if (!times)
     return {};
-  const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
-                                                     " times as far apart as the points along them"
-                                               : "too far apart";
+  const std::string apart =
+      *times > 0.0 ? "about " + rounded (*times) + " times as far apart as the points along them"
+                   : "too far apart";
   return {RunStatus::DEGENERATE,
           "the points lie along curves, such as profiles of a scanner, " + apart +
               ": for a surface, profiles should be at most 10 times as far apart as their points. "

@@ -58,7 +58,7 @@ findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists
 
 } // namespace
 
-Curves
+std::optional<double>
 findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
             std::size_t neighbors, const RunContext& run)
 {
@@ -114,7 +114,7 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
     if (!found.empty () && step > 0.0)
       apart.push_back (std::sqrt (found.front ().sqr_distance) / step);
   }
-  return {true, 2 * apart.size () > on_line.size () ? median (apart) : 0.0};
+  return 2 * apart.size () > on_line.size () ? median (apart) : 0.0;
 }
 
 } // namespace pcl::floater

@@ -6,18 +6,13 @@
 #include "local/local_geometry.h"
 
 namespace pcl::floater {
-struct Curves
-{
-  bool are_all = false; ///< the cloud is curves that are not joined
-  double apart = 0.0; ///< median distance to points beside the curve, in steps along it; 0: unknown
-};
-
 /// Whether a cloud is curves: points on lines, or the turns of a sensor that turns about an axis
 /// of the coordinates and moves along it, however noisy. A point is joined to another curve if a
 /// triangle that its corners agree on has a corner beside its line, or in another turn.
 /// \param origin of the cloud's coordinates
 /// \param neighbors number of each point's neighbours that are nearest
-Curves
+/// \return if so: the median distance to points beside the curve, in steps along it; 0: unknown
+std::optional<double>
 findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
             std::size_t neighbors, const RunContext& run);
 
