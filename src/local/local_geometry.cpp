@@ -87,7 +87,21 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
 {
   const Positions& positions = points.workingPositions ();
   if (settings.reach_beyond) {
-    planes.beside = findBesideLines (positions, planes, run);
+    const std::size_t n = positions.size ();
+    planes.beside.reach.resize (n);
+    RangeRows beside (n, n);
+    parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
+      BesideSearch search (positions, planes);
+      std::vector<Index> row;
+      for (auto p = static_cast<Index> (first); p < last; ++p) {
+        const Row known = planes.neighbors.row (p);
+        row.assign (known.begin (), known.end ());
+        planes.beside.reach[p] = search.extend (p, row);
+        for (std::size_t i = known.size (); i < row.size (); ++i)
+          beside.add (first, p, row[i]);
+      }
+    });
+    planes.beside.neighbors = beside.join ();
     appendRows (planes.beside.neighbors, planes.neighbors);
   }
   planes.normals.resize (positions.size ());
@@ -110,7 +124,8 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
   if (!begun)
-    begun = makeStars (positions, planes, Rows::all (positions.size ()), settings, run);
+    begun = makeStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
+                       settings, run, settings.reach_beyond ? &planes : nullptr);
   geometry.stars = settings.reach_beyond
                        ? finishStars (positions, planes, std::move (*begun), settings, run)
                        : std::move (*begun);

@@ -157,28 +157,6 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
   return static_cast<float> (nearest);
 }
 
-BesideLines
-findBesideLines (const Positions& positions, const LocalPlanes& planes, const RunContext& run)
-{
-  const std::size_t n = positions.size ();
-  BesideLines beside;
-  beside.reach.resize (n);
-  RangeRows lists (n, n);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    BesideSearch search (positions, planes);
-    std::vector<Index> row;
-    for (auto p = static_cast<Index> (first); p < last; ++p) {
-      const Row known = planes.neighbors.row (p);
-      row.assign (known.begin (), known.end ());
-      beside.reach[p] = search.extend (p, row);
-      for (std::size_t i = known.size (); i < row.size (); ++i)
-        lists.add (first, p, row[i]);
-    }
-  });
-  beside.neighbors = lists.join ();
-  return beside;
-}
-
 void
 appendRows (const CsrLists& added, CsrLists& lists)
 {

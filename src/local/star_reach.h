@@ -63,11 +63,6 @@ private:
   std::array<std::vector<Neighbor>, 2> found_on_; // the sides of the last point on a line
 };
 
-/// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
-/// \param planes with neighbours, spacing and tree
-BesideLines
-findBesideLines (const Positions& positions, const LocalPlanes& planes, const RunContext& run);
-
 /// Appends lists to others, row by row, in place. O(entries).
 void
 appendRows (const CsrLists& added, CsrLists& lists);

@@ -120,8 +120,8 @@ private:
         addCandidate (p, q, frame, star);
     }
     star.neighbors = star.candidates;
-    return settings_.kind == StarKind::DELAUNAY ? planar_star_.make (star.neighbors)
-                                                : planar_star_.order (star.neighbors);
+    return settings_.with_all ? planar_star_.order (star.neighbors)
+                              : planar_star_.make (star.neighbors);
   }
 
   const Positions& positions_;
@@ -133,20 +133,6 @@ private:
   std::optional<StarReach> reach_;
   Star star_, wider_;
 };
-
-// Maximum over each point and its nearest neighbours: in a noisy row of points, some stars are
-// narrow.
-std::vector<float>
-largestAround (const std::vector<float>& values, const CsrLists& neighbors, const RunContext& run)
-{
-  constexpr std::size_t NEAREST = 6;
-  std::vector<float> largest = values;
-  parallelPoints (run, values.size (), [&] (Index p) {
-    for (const Index q : neighbors.first (p, NEAREST))
-      largest[p] = std::max (largest[p], values[q]);
-  });
-  return largest;
-}
 
 } // namespace
 
@@ -195,7 +181,13 @@ finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
   // and steps of density of 5 to 30; below 2.3 on uniformly random points.
   constexpr double GAP_RATIO = 1.8;
   const std::size_t n = positions.size ();
-  begun.reach = largestAround (begun.reach, planes.neighbors, run);
+  // Maximum over the nearest neighbours as well: in a noisy row of points, some stars are narrow.
+  constexpr std::size_t NEAREST = 6;
+  const std::vector<float> own_reach = begun.reach;
+  parallelPoints (run, n, [&] (Index p) {
+    for (const Index q : planes.neighbors.first (p, NEAREST))
+      begun.reach[p] = std::max (begun.reach[p], own_reach[q]);
+  });
   if (begun.far_neighbors.ids.empty ())
     return begun;
   RangeRows made (n, n), far (n, n);

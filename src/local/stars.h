@@ -10,17 +10,12 @@
 #include "points/neighbors.h"
 
 namespace pcl::floater {
-/// Neighbours that become part of a star.
-enum class StarKind
-{
-  DELAUNAY, ///< neighbours of the centre in the Delaunay triangulation of its tangent plane
-  ALL       ///< all, in anti-clockwise order; several may lie in one direction
-};
-
 struct StarSettings
 {
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
-  StarKind kind = StarKind::DELAUNAY;
+  bool with_all =
+      false; ///< all neighbours, of which several may lie in one direction; not only those
+             ///< of the centre in the Delaunay triangulation of its tangent plane
   bool reach_beyond = false;  ///< see StarReach; for makeLocalGeometry
   bool with_offsets = true;   ///< keep offsets_in_plane: 16 bytes per entry; not for finishStars
   bool planes_of_all = false; ///< tangent planes use all neighbours (TW 385, section 4.1)
@@ -62,15 +57,6 @@ Stars
 makeStars (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
            const Rows& rows, const StarSettings& settings, const RunContext& run,
            const LocalPlanes* beyond = nullptr);
-
-/// Stars by the planes, beyond the neighbours if the settings ask for that.
-inline Stars
-makeStars (const Positions& positions, const LocalPlanes& planes, const Rows& rows,
-           const StarSettings& settings, const RunContext& run)
-{
-  return makeStars (positions, planes.neighbors, planes.normals, rows, settings, run,
-                    settings.reach_beyond ? &planes : nullptr);
-}
 
 /// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum
 /// around, then removes far neighbours across a hole again: those too far for the reach of both

@@ -175,8 +175,9 @@ starsStep (const StepContext& context, std::size_t block)
     planes.spacing = toPlaces (search, own_spacing);
     planes.beside = {toPlaces (search, beside_lists), toPlaces (search, own_reach)};
     planes.tree = search.makeTree (context.run);
-    made = makeStars (search.positions (), planes,
-                      Rows::range (search.ownFirst (), search.ownLast ()), settings, context.run);
+    made = makeStars (search.positions (), planes.neighbors, planes.normals,
+                      Rows::range (search.ownFirst (), search.ownLast ()), settings, context.run,
+                      settings.reach_beyond ? &planes : nullptr);
   } while (search.widen ());
   const CsrLists stars = ofOwn (search, made.neighbors), far = ofOwn (search, made.far_neighbors);
   put (context, "stars", block,
