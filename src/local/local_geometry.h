@@ -3,7 +3,6 @@
 // The geometry around each point.
 #pragma once
 
-#include "local/planes.h"
 #include "local/stars.h"
 #include "points/kd_tree.h"
 #include "points/points.h"

@@ -6,7 +6,6 @@
 #include "core/csr_lists.h"
 #include "core/geometry.h"
 #include "local/planar_star.h"
-#include "local/planes.h"
 #include "points/kd_tree.h"
 #include "points/neighbors.h"
 
@@ -15,6 +14,29 @@ namespace pcl::floater {
 /// circumradius of a triangle between two rows of points; on even samplings it stays below the
 /// spacing.
 constexpr float REACH_AS_SPACING = 0.5F;
+
+/// Thresholds that separate sheets. Chosen on the clouds of the first benchmark: wide enough for
+/// sharp edges of 90 degrees; unreliable for thin sheets.
+struct SheetLimits
+{
+  double plane_sine = 0.75;   ///< of the angle, 49 degrees, between a tangent plane and a neighbour
+  double normal_cosine = 0.3; ///< of the angle, 72 degrees, between normals
+};
+
+/// True if a neighbour at `offset` lies within the limits of both tangent planes, and the unsigned
+/// normals agree.
+inline bool
+onSameSheet (const Vector3d& normal, const Vector3d& other_normal, const Vector3d& offset,
+             const SheetLimits& limits = {})
+{
+  const double limit = limits.plane_sine * offset.norm ();
+  return std::abs (normal.dot (offset)) <= limit && std::abs (other_normal.dot (offset)) <= limit &&
+         std::abs (normal.dot (other_normal)) >= limits.normal_cosine;
+}
+
+/// Aspect of points (see Plane::aspect) below which they lie on a line: points on one with noise of one
+/// step are below, a third of an evenly sampled disc is above.
+constexpr double LINE_ASPECT = 0.05;
 
 /// The line through a point and its neighbours, if they lie on one.
 std::optional<Line>

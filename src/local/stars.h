@@ -5,7 +5,6 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
-#include "local/planes.h"
 #include "local/star_reach.h"
 #include "points/neighbors.h"
 
@@ -36,6 +35,12 @@ struct Stars
   std::vector<float> reach; ///< maximum reach of a star and those around, see reachOf; empty if no
                             ///< star was to reach farther
 };
+
+/// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
+/// own. At a sharp edge the least-squares plane follows one of the faces; the mean lies between
+/// them.
+Vector3d
+meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals& normals, Index p);
 
 /// Stars of some points. The sheet filter removes neighbours on another sheet of the surface, in
 /// tiers:

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/csr_lists.h"
-#include "local/planes.h"
+#include "local/star_reach.h"
 #include "mesh/triangle_mesh.h"
 
 #include <pcl/surface/floater/options.h>

@@ -221,6 +221,16 @@ spacingOf (const Positions& positions, Index p, const Row& row)
   return count > 0 ? sum / static_cast<double> (count) : 0.0;
 }
 
+std::vector<float>
+localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run)
+{
+  std::vector<float> spacing (positions.size ());
+  parallelPoints (run, spacing.size (), [&] (Index p) {
+    spacing[p] = static_cast<float> (spacingOf (positions, p, neighbors.row (p)));
+  });
+  return spacing;
+}
+
 CsrLists
 findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,
                std::optional<KdTree>* tree)

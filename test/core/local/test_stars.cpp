@@ -4,7 +4,6 @@
 #include "local/stars.h"
 
 #include "local/planar_star.h"
-#include "local/planes.h"
 #include "points/neighbors.h"
 #include "surface_samples.h"
 
