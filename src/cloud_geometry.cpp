@@ -4,8 +4,7 @@
 
 #include "core/order_statistics.h"
 #include "input/input.h"
-#include "local/curves.h"
-#include "local/scatter.h"
+#include "local/no_surface.h"
 #include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"

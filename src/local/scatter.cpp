@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "local/scatter.h"
+#include "local/no_surface.h"
 
 #include "core/order_statistics.h"
 #include "core/parallel.h"
