@@ -61,10 +61,9 @@ beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> kno
   LocalPlanes planes;
   planes.neighbors = std::move (neighbors);
   planes.spacing = localSpacing (positions, planes.neighbors, run);
-  if (settings.reach_beyond && known)
-    planes.tree.emplace (std::move (*known));
-  else if (settings.reach_beyond)
-    planes.tree.emplace (positions, run, PointOrder::ALONG_CURVE);
+  if (settings.reach_beyond)
+    planes.tree.emplace (known ? std::move (*known)
+                               : KdTree (positions, run, PointOrder::ALONG_CURVE));
   return planes;
 }
 
@@ -73,7 +72,7 @@ rowsBeside (const Points& points, const LocalPlanes& planes)
 {
   if (!planes.tree || !planes.normals.empty ())
     return [&planes] (Index p) { return planes.neighbors.row (p); };
-  BesideSearch search (points.workingPositions (), planes);
+  BesideSearch search{points.workingPositions (), planes};
   return [&planes, search = std::move (search), row = std::vector<Index> ()] (Index p) mutable {
     row.assign (planes.neighbors.row (p).begin (), planes.neighbors.row (p).end ());
     search.extend (p, row);
@@ -91,7 +90,7 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
     planes.beside.reach.resize (n);
     RangeRows beside (n, n);
     parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-      BesideSearch search (positions, planes);
+      BesideSearch search{positions, planes};
       std::vector<Index> row;
       for (auto p = static_cast<Index> (first); p < last; ++p) {
         const Row known = planes.neighbors.row (p);

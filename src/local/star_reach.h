@@ -66,23 +66,15 @@ struct LocalPlanes
 };
 
 /// Finds the neighbours beside the line of a point, if it is on one, by two searches.
-class BesideSearch
+struct BesideSearch
 {
-public:
-  /// \param planes with neighbours, spacing and tree; must outlive this
-  BesideSearch (const Positions& positions, const LocalPlanes& planes)
-      : positions_ (positions), planes_ (planes)
-  {
-  }
+  const Positions& positions;
+  const LocalPlanes& planes;                          ///< with neighbours, spacing and tree
+  std::array<std::vector<Neighbor>, 2> found_on = {}; ///< the sides of the last point on a line
 
   /// \param row in: the neighbours of p; out: with those beside its line
   /// \return see BesideLines::reach
   float extend (Index p, std::vector<Index>& row);
-
-private:
-  const Positions& positions_;
-  const LocalPlanes& planes_;
-  std::array<std::vector<Neighbor>, 2> found_on_; // the sides of the last point on a line
 };
 
 /// Appends lists to others, row by row, in place. O(entries).
@@ -102,14 +94,13 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open);
 /// equals the star of all points (on the same sheet) if all of its circumcircles lie in the ball
 /// that was searched. Otherwise the points in the circles are searched, and in the gap of an open
 /// star.
-class StarReach
+struct StarReach
 {
-public:
-  /// \param positions, planes must outlive this
-  StarReach (const Positions& positions, const LocalPlanes& planes)
-      : positions_ (positions), planes_ (planes)
-  {
-  }
+  const Positions& positions;
+  const LocalPlanes& planes;
+  std::vector<Index> added = {}; ///< neighbours, by the last call to extend ()
+  PlanarStar planar_star = {};   ///< scratch, like the next
+  std::vector<Neighbor> found = {};
 
   /// \param frame      of the plane of the star
   /// \param row        neighbours of p
@@ -119,30 +110,6 @@ public:
   /// \return whether the star is open
   bool extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
                std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star);
-
-  /// Neighbours added by the last call to extend ().
-  const std::vector<Index>& added () const { return added_; }
-
-private:
-  struct Centre
-  {
-    Index point;
-    const TangentFrame& frame;
-    Row row;
-    double sqr_searched; // all points within this squared distance are in the row
-    double farthest;
-  };
-
-  bool isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
-              const SheetLimits& sheets = {}) const;
-  void lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star);
-  void lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b);
-
-  const Positions& positions_;
-  const LocalPlanes& planes_;
-  PlanarStar planar_star_;
-  std::vector<Index> added_;
-  std::vector<Neighbor> found_;
 };
 
 } // namespace pcl::floater

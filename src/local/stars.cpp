@@ -25,7 +25,7 @@ public:
         beyond_ (beyond)
   {
     if (beyond != nullptr)
-      reach_.emplace (positions, *beyond);
+      reach_.emplace (StarReach{positions, *beyond});
   }
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
@@ -58,7 +58,7 @@ public:
   const std::vector<PlanarNeighbor>& star () const { return star_.neighbors; }
 
   /// Far neighbours of the last star.
-  const std::vector<Index>& added () const { return reach_->added (); }
+  const std::vector<Index>& added () const { return reach_->added; }
 
 private:
   struct Star
