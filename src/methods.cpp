@@ -185,13 +185,13 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   const NeighborSettings neighbors{request.options.neighbors};
   Points net = points;
   net.projected = {};
-  chooseNet (net, geometry.neighbors, neighbors, request.limits.net, run, nullptr);
+  chooseNet (net, geometry.neighbors, neighbors, run, nullptr);
   if (net.stacked.of.empty ())
     net.projected = points.projected;
   else {
     const StarSettings stars = starSettings (request.options);
     LocalPlanes planes = beginPlanes (net, std::move (geometry.neighbors), {}, stars, run);
-    planes = fitLocalPlanes (net, std::move (planes), stars, run, planeLimits (request.options));
+    planes = fitLocalPlanes (net, std::move (planes), stars, run);
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
   }
   SurfaceSettings settings;

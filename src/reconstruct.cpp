@@ -6,8 +6,7 @@
 #include "reconstruct.h"
 
 #include "input/input.h"
-#include "local/curves.h"
-#include "local/scatter.h"
+#include "local/no_surface.h"
 #include "methods.h"
 #include "options/check_options.h"
 #include "points/outliers.h"
@@ -61,14 +60,14 @@ exceptLoop (std::vector<Index> found, const Points& points, const Options& optio
 Problem
 checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
-  const Curves curves = findCurves (points.positions, -points.centre / points.scale, geometry,
-                                    static_cast<std::size_t> (request.options.neighbors.k),
-                                    PlaneLimits ().least_aspect, request.run);
-  if (!curves.are_all)
+  const std::optional<double> times =
+      findCurves (points.positions, -points.centre / points.scale, geometry,
+                  static_cast<std::size_t> (request.options.neighbors.k), request.run);
+  if (!times)
     return {};
-  const std::string apart = curves.apart > 0.0 ? "about " + rounded (curves.apart) +
-                                                     " times as far apart as the points along them"
-                                               : "too far apart";
+  const std::string apart =
+      *times > 0.0 ? "about " + rounded (*times) + " times as far apart as the points along them"
+                   : "too far apart";
   return {RunStatus::DEGENERATE,
           "the points lie along curves, such as profiles of a scanner, " + apart +
               ": for a surface, profiles should be at most 10 times as far apart as their points. "
@@ -101,8 +100,8 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
   const RunContext& run = request.run;
   points.projected = projectNoisyPoints (points.positions, geometry.neighbors, noise, run);
   const StarSettings stars = starSettings (request.options);
-  LocalPlanes planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                                       planeLimits (request.options));
+  LocalPlanes planes =
+      fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run);
   LocalGeometry projected = makeLocalGeometry (points, std::move (planes), stars, run);
   keepExplained (projected.neighbors, starAgreement (geometry.stars, run),
                  starAgreement (projected.stars, run), noise);
@@ -139,7 +138,7 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
   if (isSensorKnown (request.sensor_origin) && isSeen (of_file))
     return of_file;
   const LocalPlanes planes = searchPlanes (points, {request.options.neighbors}, request);
-  const RowOf row_of = rowsBeside (points, planes, planeLimits (request.options));
+  const RowOf row_of = rowsBeside (points, planes);
   const std::vector<AreaSample> samples = takePatchSamples (points.positions, row_of);
   for (const SearchReason reason : {SearchReason::UNEVEN, SearchReason::OPEN})
     if (const std::optional<Viewpoint> found = findViewpoint (points, row_of, samples, reason, run))
@@ -187,8 +186,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                            ? known->neighborsOfStacks ()
                            : findNeighbors (points, settings, run, as_disc ? nullptr : &tree);
   if (!as_disc && neighbors.rows () > 0)
-    reportStacks (points, chooseNet (points, neighbors, settings, request.limits.net, run, &tree),
-                  report);
+    reportStacks (points, chooseNet (points, neighbors, settings, run, &tree), report);
   if (known != nullptr) { // the others will be those of its planes
     neighbors = {};
     tree.reset ();
@@ -221,13 +219,13 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   if (known != nullptr)
     begun = known->begunStars ();
   if (may_be_seen) {
-    const RowOf row_of = rowsBeside (points, planes, planeLimits (options));
+    const RowOf row_of = rowsBeside (points, planes);
     samples = takePatchSamples (points.positions, row_of);
     if (const std::optional<Problem> problem = reconstructFrom (row_of, SearchReason::UNEVEN))
       return *problem;
   }
   if (known == nullptr)
-    planes = fitLocalPlanes (points, std::move (planes), stars, run, planeLimits (options));
+    planes = fitLocalPlanes (points, std::move (planes), stars, run);
   const bool is_certain = options.scatter == ScatterPolicy::AUTO; // what is dropped as scatter
   const bool drops_scatter = options.scatter == ScatterPolicy::DROP || (is_certain && !as_disc);
   Noise noise;
@@ -269,8 +267,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
                   " on one; take a part that is a surface, smooth the cloud or thin it by a voxel "
                   "grid, use a method that smooths, such as Poisson reconstruction, or keep the "
                   "scatter"};
-    planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run,
-                             planeLimits (options));
+    planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run);
     noise = measureNoise (points.positions, planes.neighbors, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
     noise.is_strong = isStrongNow (DISTURBED);

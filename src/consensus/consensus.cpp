@@ -23,24 +23,13 @@ constexpr std::size_t AGREEMENT_RANKS = 32;
 // unless it contradicts the orientation. Cosines above 0.875.
 constexpr std::size_t SURE_RANKS = 4;
 
-// Class of a candidate's normal agreement: 0 for the best, below AGREEMENT_RANKS.
-std::size_t
-normalAgreementRank (const Candidate& candidate)
-{
-  const auto steps = static_cast<std::size_t> ((1.0F - candidate.normal_agreement) *
-                                               static_cast<float> (AGREEMENT_RANKS));
-  return std::min (steps, AGREEMENT_RANKS - 1);
-}
-
-// Sets the normal agreement and `clockwise` from the corners.
+// Sets the normal agreement and `clockwise` of a new candidate from the corners.
 void
 setNormalAgreement (const Positions& positions, const Normals& normals, Candidate& candidate)
 {
   const auto& [a, b, c] = candidate.corners;
   const Vector3d normal = areaVector (positions[a], positions[b], positions[c]);
   const Vector3f unit = (normal / normal.norm ()).cast<float> ();
-  candidate.normal_agreement = 1.0F;
-  candidate.clockwise = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3f& at_corner = normals[candidate.corners[i]];
     candidate.normal_agreement =
@@ -77,7 +66,7 @@ class ConsensusBuilder
 {
 public:
   ConsensusBuilder (const Positions& positions, const Normals& normals)
-      : positions_ (positions), normals_ (normals), orientation_ (positions.size ()),
+      : orientation (positions.size ()), positions_ (positions), normals_ (normals),
         last_sector_ (positions.size (), UNWATCHED)
   {
   }
@@ -96,16 +85,16 @@ public:
   {
     if (test_sectors && overlapsTaken (candidate.corners))
       return false;
-    const bool fits = orientation_.join (candidate.corners, candidate.clockwise);
+    const bool fits = orientation.join (candidate.corners, candidate.clockwise);
     if (fits)
       occupy (candidate.corners);
     else if (candidate.votes == 3)
-      seam_.push_back (candidate.corners);
+      seam.push_back (candidate.corners);
     return fits;
   }
 
-  Orientation& orientation () { return orientation_; }
-  std::vector<Triangle>& seam () { return seam_; }
+  Orientation orientation;
+  std::vector<Triangle> seam; // see Consensus
 
 private:
   static constexpr Index UNWATCHED = NONE - 1;
@@ -155,10 +144,8 @@ private:
 
   const Positions& positions_;
   const Normals& normals_;
-  Orientation orientation_;
   std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
   std::vector<TakenSector> sectors_;
-  std::vector<Triangle> seam_;
 };
 
 } // namespace
@@ -172,17 +159,11 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
     std::vector<Candidate>& range = ranges.of (first);
     range.reserve (2 * (last - first));
     for (auto p = static_cast<Index> (first); p < last; ++p) {
-      const Row row = stars.neighbors.row (p);
-      if (row.size () < 2)
-        continue;
-      const std::size_t sectors = stars.open[p] != 0 ? row.size () - 1 : row.size ();
-      for (std::size_t s = 0; s < sectors; ++s) {
-        const Index q = row[s], r = row[s + 1 == row.size () ? 0 : s + 1];
+      anyTriangle (stars, p, [&] (Index q, Index r) {
         const bool in_q = hasTriangle (stars, q, r, p), in_r = hasTriangle (stars, r, p, q);
         if ((in_q && q < p) || (in_r && r < p))
-          continue; // q or r is its first corner
-        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r), 0, false, 0.0F,
-                            0.0F};
+          return false; // q or r is its first corner
+        Candidate candidate{{p, q, r}, static_cast<std::uint8_t> (1 + in_q + in_r)};
         double step = (spacing[p] + spacing[q] + spacing[r]) / 3.0;
         if (const std::vector<float>& reach = stars.reach; !reach.empty ())
           step = std::max (step, static_cast<double> (REACH_AS_SPACING *
@@ -194,7 +175,8 @@ findCandidates (const Positions& positions, const Stars& stars, const Normals& n
         if (candidate.circumradius_ratio <= LARGEST_CIRCUMRADIUS[rank] &&
             candidate.normal_agreement >= LEAST_AGREEMENT[rank])
           range.push_back (candidate);
-      }
+        return false;
+      });
     }
   });
   return ranges.join ();
@@ -207,8 +189,11 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
   // In the order of their offers: those of three votes by their class of normal agreement, so that the
   // orientation spreads along triangles that agree best, like a minimum spanning forest.
   CsrLists order = makeCsrLists (AGREEMENT_RANKS + 1, [&] (const auto& emit) {
-    for (Index c = 0; c < candidates.size (); ++c)
-      emit (candidates[c].votes == 3 ? normalAgreementRank (candidates[c]) : AGREEMENT_RANKS, c);
+    for (Index c = 0; c < candidates.size (); ++c) {
+      const auto steps = static_cast<std::size_t> ((1.0F - candidates[c].normal_agreement) *
+                                                   static_cast<float> (AGREEMENT_RANKS));
+      emit (candidates[c].votes == 3 ? std::min (steps, AGREEMENT_RANKS - 1) : AGREEMENT_RANKS, c);
+    }
   });
   std::vector<Index>& ids = order.ids;
   const std::size_t doubtful = order.offsets[SURE_RANKS]; // from there on
@@ -233,10 +218,7 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
     }
   };
   offer (0, doubtful);
-  std::vector<const Candidate*> voters;
-  for (std::size_t i = doubtful; i < fewer_votes; ++i)
-    voters.push_back (&candidates[ids[i]]);
-  builder.orientation ().vote (voters.data (), voters.data () + voters.size (), run);
+  builder.orientation.vote (candidates, {ids.data () + doubtful, ids.data () + fewer_votes}, run);
   offer (doubtful, ids.size ());
 
   const CsrLists at_corner = makeCsrLists (positions.size (), [&] (const auto& emit) {
@@ -250,11 +232,11 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
   for (const Index c : at_corner.ids) {
     const Candidate& candidate = candidates[c];
     consensus.triangles.push_back (
-        builder.orientation ().turned (candidate.corners, candidate.clockwise));
+        builder.orientation.turned (candidate.corners, candidate.clockwise));
     consensus.votes.push_back (candidate.votes);
   }
-  consensus.seam = std::move (builder.seam ());
-  builder.orientation ().turn (normals, run);
+  consensus.seam = std::move (builder.seam);
+  builder.orientation.turn (normals, run);
   return consensus;
 }
 

@@ -12,13 +12,13 @@ namespace pcl::floater {
 /// A triangle in the stars of one, two or all three of its corners.
 struct Candidate
 {
-  Triangle corners;         ///< the first is the smallest one whose star has the triangle;
-                            ///< anti-clockwise seen from the normal of that corner
-  std::uint8_t votes;       ///< corners whose stars have it, 1 to 3
-  std::uint8_t clockwise;   ///< bit i: clockwise seen from the normal of corner i
-  bool is_taken;            ///< into the consensus
-  float circumradius_ratio; ///< circumradius over the mean spacing of its corners
-  float normal_agreement;   ///< least |cosine| between its normal and those of its corners
+  Triangle corners;                ///< the first is the smallest one whose star has the triangle;
+                                   ///< anti-clockwise seen from the normal of that corner
+  std::uint8_t votes;              ///< corners whose stars have it, 1 to 3
+  std::uint8_t clockwise = 0;      ///< bit i: clockwise seen from the normal of corner i
+  bool is_taken = false;           ///< into the consensus
+  float circumradius_ratio = 0.0F; ///< circumradius over the mean spacing of its corners
+  float normal_agreement = 1.0F;   ///< least |cosine| between its normal and those of its corners
 };
 
 /// The triangles of all stars that are neither too large nor too steep, each once, ordered by their
@@ -48,7 +48,8 @@ public:
   /// may be wrong. Rounds as in Boruvka's algorithm: every set is joined to the one with the most
   /// votes, until no candidate connects two sets. O(m log m) for m candidates in each of O(log m)
   /// rounds.
-  void vote (const Candidate* const* first, const Candidate* const* last, const RunContext& run);
+  /// \param voters of the candidates
+  void vote (const std::vector<Candidate>& candidates, const Row& voters, const RunContext& run);
 
   /// The corners, anti-clockwise seen from the front of their set.
   Triangle turned (Triangle corners, std::uint8_t clockwise);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus_method.h"
 
-#include "core/order_statistics.h"
+#include "core/parallel.h"
 #include "mesh/crossed_fillings.h"
 #include "mesh/hole_filling.h"
 
@@ -17,7 +17,12 @@ makeConsensusMesh (Surface& surface, const Positions& positions, LocalGeometry& 
 {
   // Mean normals at sharp edges, where both faces are visible from them.
   Normals normals = std::move (geometry.stars.normals);
-  Normals smoothed = smoothedNormals (positions, geometry.neighbors, normals, run);
+  constexpr double EDGE = 0.9; // cosine, 26 degrees, between own and mean normal there
+  Normals smoothed (normals.size ());
+  parallelPoints (run, normals.size (), [&] (Index p) {
+    const Vector3f mean = meanNormal (positions, geometry.neighbors, normals, p).cast<float> ();
+    smoothed[p] = std::abs (mean.dot (normals[p])) < EDGE ? mean : normals[p];
+  });
   std::vector<Candidate> candidates =
       findCandidates (positions, geometry.stars, smoothed, geometry.spacing, run);
   geometry.stars = {};

@@ -57,11 +57,7 @@ besideBestFan (const VertexStar& star, const std::vector<std::uint8_t>& votes)
 void
 pruneFans (Consensus& consensus, std::size_t points, const RunContext& run)
 {
-  struct Pruned
-  {
-    Index point;
-    std::vector<Index> beside;
-  };
+  using Pruned = std::pair<Index, std::vector<Index>>; // a point, and what is beside its best fan
   for (bool has_changed = true; has_changed;) {
     const TriangleRanges ranges (consensus.triangles, points, run);
     std::vector<std::vector<Pruned>> found (ranges.count ());
@@ -70,7 +66,7 @@ pruneFans (Consensus& consensus, std::size_t points, const RunContext& run)
       StarOrder order;
       for (auto p = static_cast<Index> (ranges.firstPoint (r)); p < ranges.lastPoint (r); ++p)
         if (const VertexStar star = stars.of (p); !order.set (star) || !order.isOneFan ())
-          found[r].push_back ({p, besideBestFan (star, consensus.votes)});
+          found[r].emplace_back (p, besideBestFan (star, consensus.votes));
     });
     std::vector<Index> removed;
     std::set<Index> changed;

@@ -34,16 +34,16 @@ Orientation::join (const Triangle& corners, std::uint8_t clockwise)
 }
 
 void
-Orientation::vote (const Candidate* const* first, const Candidate* const* last,
+Orientation::vote (const std::vector<Candidate>& candidates, const Row& voters,
                    const RunContext& run)
 {
   ProgressLoop progress (run);
   while (true) {
     // Of two sets, by their representatives: positive for the same side, negative for opposite ones.
     std::map<std::pair<Index, Index>, int> sums;
-    for (const Candidate* const* candidate = first; candidate != last; ++candidate) {
+    for (const Index voter : voters) {
       progress.next ();
-      const Candidate& c = **candidate;
+      const Candidate& c = candidates[voter];
       for (std::size_t i = 0; i < 3; ++i) {
         const SignedSets::Place a = placeOf (c.corners, c.clockwise, i),
                                 b = placeOf (c.corners, c.clockwise, (i + 1U) % 3U);

@@ -3,6 +3,7 @@
 // Parallel loops whose results do not depend on the number of threads.
 #pragma once
 
+#include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "core/types.h"
 
@@ -169,6 +170,39 @@ public:
 
 private:
   std::vector<std::vector<Value>> lists_;
+};
+
+/// Lists of indices whose rows the ranges of parallelRanges () find, each its own in ascending order.
+class RangeRows
+{
+public:
+  /// \param count of what the ranges cover
+  /// \param rows  of the lists
+  RangeRows (std::size_t count, std::size_t rows) : ids_ (count)
+  {
+    lists_.offsets.assign (rows + 1, 0);
+  }
+
+  /// Appends to a row, by the range that begins at `first`.
+  void add (std::size_t first, std::size_t row, Index id)
+  {
+    ids_.of (first).push_back (id);
+    ++lists_.offsets[row + 1];
+  }
+
+  /// The lists. O(rows + entries). Frees what the ranges have found.
+  /// \throws IndexLimitReached if there are 2^32 - 1 entries or more
+  CsrLists join ()
+  {
+    requireListed (ids_.size ());
+    sumRowLengths (lists_.offsets);
+    lists_.ids = ids_.join ();
+    return std::move (lists_);
+  }
+
+private:
+  RangeLists<Index> ids_;
+  CsrLists lists_; // the length of each row instead of the offsets
 };
 
 } // namespace pcl::floater

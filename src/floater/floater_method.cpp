@@ -200,7 +200,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   const DiscOptions& options = settings.options.disc;
   const Neighborhood neighborhood = settings.options.neighbors.kind;
   if (neighborhood == Neighborhood::NEAREST || neighborhood == Neighborhood::BALL) {
-    star_settings.kind = StarKind::ALL;
+    star_settings.with_all = true;
     geometry.stars = makeStars (positions, geometry.neighbors, geometry.stars.normals,
                                 Rows::all (positions.size ()), star_settings, run);
   }

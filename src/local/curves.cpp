@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "local/curves.h"
+#include "local/no_surface.h"
 
 #include "core/order_statistics.h"
 #include "local/star_reach.h"
@@ -58,9 +58,9 @@ findTurnAxis (const Positions& positions, const Vector3d& origin, const CsrLists
 
 } // namespace
 
-Curves
+std::optional<double>
 findCurves (const Positions& positions, const Vector3d& origin, const LocalGeometry& geometry,
-            std::size_t neighbors, double least_aspect, const RunContext& run)
+            std::size_t neighbors, const RunContext& run)
 {
   // At most this share of the points is joined to another curve. Parallel lines on a wavy sheet, up
   // to 30 times as far apart as their points, have 0.91 or more of their points joined, 40 times
@@ -79,7 +79,7 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
   for (std::size_t i = 0; i < n; i += stride) {
     const auto p = static_cast<Index> (i);
     const Row row = geometry.neighbors.first (p, neighbors);
-    if (const auto line = axis ? Line{} : lineThrough (positions, p, row, least_aspect))
+    if (const auto line = axis ? Line{} : lineThrough (positions, p, row))
       on_line.emplace_back (p, *line);
   }
   const auto points = static_cast<double> (on_line.size ());
@@ -90,15 +90,11 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
     return axis ? offset[*axis] != 0.0 : liesBeside (at.second, offset);
   };
   const auto isJoined = [&] (const std::pair<Index, Line>& at) {
-    const Index p = at.first;
-    const Row row = geometry.stars.neighbors.row (p);
-    for (std::size_t i = 0; i + geometry.stars.open[p] < row.size (); ++i) {
-      const Index q = row[i], r = row[i + 1 < row.size () ? i + 1 : 0];
-      if ((isBeside (at, positions[q]) || isBeside (at, positions[r])) &&
-          hasTriangle (geometry.stars, q, r, p) && hasTriangle (geometry.stars, r, p, q))
-        return true;
-    }
-    return false;
+    return anyTriangle (geometry.stars, at.first, [&] (Index q, Index r) {
+      return (isBeside (at, positions[q]) || isBeside (at, positions[r])) &&
+             hasTriangle (geometry.stars, q, r, at.first) &&
+             hasTriangle (geometry.stars, r, at.first, q);
+    });
   };
   const auto joined = std::count_if (on_line.begin (), on_line.end (), isJoined);
   if (static_cast<double> (joined) > JOINED * points)
@@ -118,7 +114,7 @@ findCurves (const Positions& positions, const Vector3d& origin, const LocalGeome
     if (!found.empty () && step > 0.0)
       apart.push_back (std::sqrt (found.front ().sqr_distance) / step);
   }
-  return {true, 2 * apart.size () > on_line.size () ? median (apart) : 0.0};
+  return 2 * apart.size () > on_line.size () ? median (apart) : 0.0;
 }
 
 } // namespace pcl::floater

@@ -3,7 +3,6 @@
 // The geometry around each point.
 #pragma once
 
-#include "local/planes.h"
 #include "local/stars.h"
 #include "points/kd_tree.h"
 #include "points/points.h"
@@ -37,7 +36,7 @@ beginPlanes (const Points& points, CsrLists neighbors, std::optional<KdTree> kno
 /// searches for each point on a line. For one thread.
 /// \param points, planes must outlive the result
 RowOf
-rowsBeside (const Points& points, const LocalPlanes& planes, const PlaneLimits& limits);
+rowsBeside (const Points& points, const LocalPlanes& planes);
 
 /// Adds neighbours beside lines, and tangent planes by the working positions. O(n k). Planes through the
 /// 8 nearest neighbours, refitted to all neighbours near that plane, so that a second sheet within reach
@@ -45,7 +44,7 @@ rowsBeside (const Points& points, const LocalPlanes& planes, const PlaneLimits& 
 /// \param planes see beginPlanes
 LocalPlanes
 fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& settings,
-                const RunContext& run, const PlaneLimits& limits = {});
+                const RunContext& run);
 
 /// Stars and spacing by the working positions of the points. O(n k log k).
 /// \param begun results of makeStars () for all points, if known; then `planes` needs no tree

@@ -57,12 +57,6 @@ isCorner (const Vector2d& a, const Vector2d& b, const Vector2d& c)
   return ab.dot (bc) > 0.0 ? !isAtMostCollinear (turn, ab, bc) : turn > 0.0;
 }
 
-bool
-isBefore (const PlanarNeighbor& a, const PlanarNeighbor& b)
-{
-  return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
-}
-
 // Sorts by the number of smaller angles. For few neighbours, comparing all pairs without branches
 // is faster than a sort with many mispredicted branches. Uses single precision, four at once.
 // \return false if two angles are equal in single precision: neither list is then sorted
@@ -97,16 +91,19 @@ sortByAngle (std::vector<PlanarNeighbor>& neighbors, std::vector<PlanarNeighbor>
     neighbor.angle = pseudoAngle (neighbor.offset);
   const bool are_few = !neighbors.empty () && neighbors.size () <= MOST_COUNTED;
   if (!are_few || !sortByCounting (neighbors, unsorted))
-    std::sort (neighbors.begin (), neighbors.end (), isBefore);
+    std::sort (neighbors.begin (), neighbors.end (), [] (const auto& a, const auto& b) {
+      return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
+    });
 }
 
 } // namespace
 
-void
-PlanarStar::keepNearest (const std::vector<PlanarNeighbor>& sorted)
+bool
+PlanarStar::takeNearest (std::vector<PlanarNeighbor>& neighbors)
 {
+  sortByAngle (neighbors, hull_); // hull_ is scratch here
   hull_.clear ();
-  for (const PlanarNeighbor& neighbor : sorted) {
+  for (const PlanarNeighbor& neighbor : neighbors) {
     if (hull_.empty () || !sameDirection (hull_.back ().offset, neighbor.offset))
       hull_.push_back (neighbor);
     else if (neighbor.offset.squaredNorm () < hull_.back ().offset.squaredNorm ())
@@ -117,11 +114,6 @@ PlanarStar::keepNearest (const std::vector<PlanarNeighbor>& sorted)
       hull_.front () = hull_.back ();
     hull_.pop_back ();
   }
-}
-
-bool
-PlanarStar::beginAfterGap ()
-{
   const std::size_t count = hull_.size ();
   std::size_t gap = count;
   std::size_t nearest = 0;
@@ -160,12 +152,9 @@ PlanarStar::openingAngle () const
 bool
 PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
 {
-  sortByAngle (neighbors, hull_); // hull_ is scratch here
-
-  // In each direction, only the nearest neighbour can be in the star.
-  keepNearest (neighbors);
-  // A closed star begins at its nearest neighbour: inverted, it is the farthest and a hull vertex.
-  const bool open = beginAfterGap ();
+  // In each direction, only the nearest neighbour can be in the star. A closed star begins at its
+  // nearest neighbour: inverted, it is the farthest and a hull vertex.
+  const bool open = takeNearest (neighbors);
 
   // Graham scan in angular order. A closed star is scanned to its first neighbour again; the ends
   // of an open one are hull vertices.
@@ -193,9 +182,7 @@ PlanarStar::make (std::vector<PlanarNeighbor>& neighbors)
 bool
 PlanarStar::order (std::vector<PlanarNeighbor>& neighbors)
 {
-  sortByAngle (neighbors, hull_); // hull_ is scratch here
-  keepNearest (neighbors);        // gaps are between directions
-  const bool open = beginAfterGap ();
+  const bool open = takeNearest (neighbors); // gaps are between directions
   // The first direction may be at both ends of the list: at angles of 0 and 2 pi.
   const auto is_first = [this] (const PlanarNeighbor& neighbor) {
     return sameDirection (hull_.front ().offset, neighbor.offset);

@@ -36,12 +36,9 @@ public:
   double openingAngle () const;
 
 private:
-  // Copies the nearest neighbour in each direction, anti-clockwise, into hull_.
-  void keepNearest (const std::vector<PlanarNeighbor>& sorted);
-
-  // Rotates hull_ to begin after the gap, or at the nearest if there is none. Returns true if the
-  // star is open.
-  bool beginAfterGap ();
+  // Sorts neighbours by their angles, and sets hull_ to the nearest in each direction, anti-clockwise,
+  // from the gap on, or from the nearest of all if there is none. Returns true if the star is open.
+  bool takeNearest (std::vector<PlanarNeighbor>& neighbors);
 
   std::vector<PlanarNeighbor> hull_;
   std::vector<Vector2d> inverted_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "local/scatter.h"
+#include "local/no_surface.h"
 
 #include "core/order_statistics.h"
 #include "core/parallel.h"
@@ -43,14 +43,12 @@ constexpr std::size_t LEAST_FAR = 10; // far points of a region, so that the hal
 float
 agreeingShare (const Stars& stars, Index p)
 {
-  const Row row = stars.neighbors.row (p);
-  const std::size_t triangles = row.size () - (stars.open[p] != 0 && row.size () > 0 ? 1 : 0);
-  std::size_t agreeing = 0;
-  for (std::size_t i = 0; i < triangles; ++i) {
-    const Index q = row[i], r = row[i + 1 < row.size () ? i + 1 : 0];
-    if (hasTriangle (stars, q, r, p) && hasTriangle (stars, r, p, q))
-      ++agreeing;
-  }
+  std::size_t triangles = 0, agreeing = 0;
+  anyTriangle (stars, p, [&] (Index q, Index r) {
+    ++triangles;
+    agreeing += hasTriangle (stars, q, r, p) && hasTriangle (stars, r, p, q) ? 1 : 0;
+    return false;
+  });
   return triangles == 0 ? 0.0F : static_cast<float> (agreeing) / static_cast<float> (triangles);
 }
 

@@ -43,13 +43,6 @@ middleOfGap (const std::vector<PlanarNeighbor>& star)
   return is_reflex ? Vector2d (-sum.normalized ()) : Vector2d (sum.normalized ());
 }
 
-// Radius that a search for `wanted` points within `radius` has covered.
-double
-reachOfSearch (const std::vector<Neighbor>& found, std::size_t wanted, double radius)
-{
-  return found.size () == wanted ? std::sqrt (found.back ().sqr_distance) : radius;
-}
-
 // Distance to which far neighbours of a point are searched, by its nearest neighbours. Where points on
 // a line are strewn, those nearest may be close to each other by chance, and tell nothing of the
 // steps around; the whole row, which goes to either side, does.
@@ -113,16 +106,16 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
   constexpr double ROUNDED_UP = 1.0 + 1e-12, LEAST_COSINE = 1e-9;
   constexpr std::size_t FEWEST = 10;
   constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
-  const Vector3d& here = positions_[p];
-  const Row around = planes_.neighbors.row (p);
-  std::optional<Line> line = lineThrough (positions_, p, around, least_aspect_);
+  const Vector3d& here = positions[p];
+  const Row around = planes.neighbors.row (p);
+  std::optional<Line> line = lineThrough (positions, p, around);
   // Or through the nearer half, if these lie on a line much more closely. Where the farther half has a
   // few points of one line beside, but none of the other, these neither surround the point nor fix its
   // plane.
   if (!line && around.size () > FEWEST)
-    line = lineThrough (positions_, p,
-                        planes_.neighbors.first (p, std::max (FEWEST, around.size () / 2)),
-                        CLOSELY * least_aspect_);
+    line = lineThrough (positions, p,
+                        planes.neighbors.first (p, std::max (FEWEST, around.size () / 2)),
+                        CLOSELY * LINE_ASPECT);
   if (!line)
     return 0.0F;
   // The tree may return points behind the plane of its search, which depends on its nodes: they are
@@ -135,59 +128,33 @@ BesideSearch::extend (Index p, std::vector<Index>& row)
             ahead.dot (offset) > LEAST_COSINE * ahead.norm () * offset.norm ());
   };
   const double farthest =
-      farthestFrom (positions_, p, around, static_cast<double> (planes_.spacing[p]));
+      farthestFrom (positions, p, around, static_cast<double> (planes.spacing[p]));
   // First on the side of the nearest one, then on the opposite side.
   double nearest = 0.0;
-  for (std::vector<Neighbor>& found : found_on_) {
-    const bool is_first = &found == found_on_.data ();
+  for (std::vector<Neighbor>& found : found_on) {
+    const bool is_first = &found == found_on.data ();
     // If all that the last point has found are beside this one, the nearest are no farther.
     double bound = 0.0;
     const bool is_bounded = found.size () == ADDED &&
                             std::all_of (found.begin (), found.end (), [&] (const Neighbor& other) {
-                              const Vector3d& position = positions_[other.point];
+                              const Vector3d& position = positions[other.point];
                               bound = std::max (bound, ROUNDED_UP * (position - here).norm ());
                               return is_beside (other, position);
                             });
-    planes_.tree->nearestIf (here, ahead, is_bounded ? std::min (bound, farthest) : farthest, ADDED,
-                             is_beside, found);
-    planes_.tree->looked (here, reachOfSearch (found, ADDED, farthest));
+    planes.tree->looked (here, planes.tree->nearestIf (
+                                   here, ahead, is_bounded ? std::min (bound, farthest) : farthest,
+                                   ADDED, is_beside, found));
     if (found.empty ()) // beside the last line
       return is_first ? 0.0F : static_cast<float> (nearest);
     const double distance = std::sqrt (found.front ().sqr_distance);
     nearest = is_first ? distance : std::min (nearest, distance);
-    const Vector3d offset = positions_[found.front ().point] - here;
+    const Vector3d offset = positions[found.front ().point] - here;
     ahead = line->direction * line->direction.dot (offset) - offset;
     for (const Neighbor& neighbor : found)
       if (std::find (row.begin (), row.end (), neighbor.point) == row.end ())
         row.push_back (neighbor.point);
   }
   return static_cast<float> (nearest);
-}
-
-BesideLines
-findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                 const RunContext& run)
-{
-  const std::size_t n = positions.size ();
-  BesideLines beside;
-  beside.reach.resize (n);
-  CsrLists& lists = beside.neighbors;
-  lists.offsets.assign (n + 1, 0);
-  RangeLists<Index> ranges (n);
-  parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
-    BesideSearch search (positions, planes, least_aspect);
-    std::vector<Index> row;
-    for (auto p = static_cast<Index> (first); p < last; ++p) {
-      const Row known = planes.neighbors.row (p);
-      row.assign (known.begin (), known.end ());
-      beside.reach[p] = search.extend (p, row);
-      lists.offsets[p + 1] = static_cast<Index> (row.size () - known.size ());
-      ranges.of (first).insert (ranges.of (first).end (), row.begin () + known.size (), row.end ());
-    }
-  });
-  sumRowLengths (lists.offsets);
-  lists.ids = ranges.join ();
-  return beside;
 }
 
 void
@@ -236,94 +203,81 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open)
 }
 
 bool
-StarReach::isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
-                  const SheetLimits& sheets) const
-{
-  if (sqr_distance < centre.sqr_searched ||
-      std::find (added_.begin (), added_.end (), neighbor.point) != added_.end ())
-    return false;
-  // The row may contain neighbours beside a line, which are farther than the nearest.
-  return std::find (centre.row.begin (), centre.row.end (), neighbor.point) == centre.row.end () &&
-         onSameSheet (centre.frame.normal, planes_.normals[neighbor.point].cast<double> (),
-                      positions_[neighbor.point] - positions_[centre.point], sheets);
-}
-
-void
-StarReach::lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star)
-{
-  // Of the angle, 75 degrees, between the middle of a gap and points accepted in it. Noise puts
-  // points of the same row beside it.
-  constexpr double MOST_COSINE = 0.26;
-  const Vector3d& here = positions_[centre.point];
-  const Vector3d ahead = inSpace (centre.frame, middleOfGap (star));
-  const auto is_ahead = [&] (const Neighbor& neighbor, const Vector3d& position) {
-    const double along = ahead.dot (position - here);
-    return along > 0.0 && along * along >= MOST_COSINE * MOST_COSINE * neighbor.sqr_distance &&
-           isNew (centre, neighbor, neighbor.sqr_distance, sheets_);
-  };
-  planes_.tree->nearestIf (here, ahead, centre.farthest, ADDED, is_ahead, found_);
-  planes_.tree->looked (here, reachOfSearch (found_, ADDED, centre.farthest));
-  for (const Neighbor& neighbor : found_)
-    added_.push_back (neighbor.point);
-}
-
-void
-StarReach::lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b)
-{
-  // For points in circumcircles: normals turn by up to 37 degrees, and on an arc the offset leaves
-  // the plane by half of that, less noise. With the limits of near neighbours, two of 24 clean
-  // clouds included another sheet; these values fixed both, and are not certain.
-  constexpr SheetLimits CIRCLE_SHEET{0.25, 0.8};
-  const double double_area = cross (a.offset, b.offset);
-  if (double_area <= 0.0)
-    return;
-  const Vector2d difference =
-      a.offset.squaredNorm () * b.offset - b.offset.squaredNorm () * a.offset;
-  const Vector2d middle = Vector2d (difference.y (), -difference.x ()) / (2.0 * double_area);
-  const double sqr_radius = middle.squaredNorm ();
-  if (4.0 * sqr_radius <= centre.sqr_searched ||
-      sqr_radius > centre.farthest * centre.farthest / 4.0)
-    return;
-  const Vector3d& here = positions_[centre.point];
-  const auto is_inside = [&] (const Neighbor& neighbor, const Vector3d& position) {
-    const Vector3d offset = position - here;
-    return (unrolled (centre.frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
-           isNew (centre, neighbor, offset.squaredNorm (), CIRCLE_SHEET);
-  };
-  const double radius = std::sqrt (sqr_radius);
-  planes_.tree->nearestIf (here + inSpace (centre.frame, middle), Vector3d::Zero (), radius, ADDED,
-                           is_inside, found_);
-  planes_.tree->looked (here, radius + reachOfSearch (found_, ADDED, radius));
-  for (const Neighbor& neighbor : found_)
-    added_.push_back (neighbor.point);
-}
-
-bool
 StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   constexpr int ROUNDS = 8; // of one star, to limit the time
-  added_.clear ();
-  const double farthest = farthestFrom (positions_, p, planes_.neighbors.first (p, nearest),
-                                        static_cast<double> (planes_.spacing[p]));
-  const double sqr_searched =
-      nearest == 0 ? 0.0 : (positions_[row[nearest - 1]] - positions_[p]).squaredNorm ();
-  const Centre centre{p, frame, row, sqr_searched, farthest};
+  // Of the angle, 75 degrees, between the middle of a gap and points accepted in it. Noise puts
+  // points of the same row beside it.
+  constexpr double MOST_COSINE = 0.26;
+  // For points in circumcircles: normals turn by up to 37 degrees, and on an arc the offset leaves
+  // the plane by half of that, less noise. With the limits of near neighbours, two of 24 clean
+  // clouds included another sheet; these values fixed both, and are not certain.
+  constexpr SheetLimits CIRCLE_SHEET{0.25, 0.8};
+  added.clear ();
+  const Vector3d& here = positions[p];
+  const double farthest = farthestFrom (positions, p, planes.neighbors.first (p, nearest),
+                                        static_cast<double> (planes.spacing[p]));
+  const double sqr_searched = // all points within are in the row
+      nearest == 0 ? 0.0 : (positions[row[nearest - 1]] - here).squaredNorm ();
+  const auto isNew = [&] (Index point, double sqr_distance, const SheetLimits& sheets) {
+    // The row may contain neighbours beside a line, which are farther than the nearest.
+    return sqr_distance >= sqr_searched &&
+           std::find (added.begin (), added.end (), point) == added.end () &&
+           std::find (row.begin (), row.end (), point) == row.end () &&
+           onSameSheet (frame.normal, planes.normals[point].cast<double> (),
+                        positions[point] - here, sheets);
+  };
+  const auto addFound = [&] {
+    for (const Neighbor& neighbor : found)
+      added.push_back (neighbor.point);
+  };
+  const auto lookAhead = [&] {
+    const Vector3d ahead = inSpace (frame, middleOfGap (star));
+    const auto is_ahead = [&] (const Neighbor& neighbor, const Vector3d& position) {
+      const double along = ahead.dot (position - here);
+      return along > 0.0 && along * along >= MOST_COSINE * MOST_COSINE * neighbor.sqr_distance &&
+             isNew (neighbor.point, neighbor.sqr_distance, {});
+    };
+    planes.tree->looked (here,
+                         planes.tree->nearestIf (here, ahead, farthest, ADDED, is_ahead, found));
+    addFound ();
+  };
+  const auto lookIntoCircle = [&] (const Vector2d& a, const Vector2d& b) {
+    const double double_area = cross (a, b);
+    if (double_area <= 0.0)
+      return;
+    const Vector2d difference = a.squaredNorm () * b - b.squaredNorm () * a;
+    const Vector2d middle = Vector2d (difference.y (), -difference.x ()) / (2.0 * double_area);
+    const double sqr_radius = middle.squaredNorm ();
+    if (4.0 * sqr_radius <= sqr_searched || sqr_radius > farthest * farthest / 4.0)
+      return;
+    const auto is_inside = [&] (const Neighbor& neighbor, const Vector3d& position) {
+      const Vector3d offset = position - here;
+      return (unrolled (frame, offset) - middle).squaredNorm () < INSIDE * sqr_radius &&
+             isNew (neighbor.point, offset.squaredNorm (), CIRCLE_SHEET);
+    };
+    const double radius = std::sqrt (sqr_radius);
+    const double covered = planes.tree->nearestIf (
+        here + inSpace (frame, middle), Vector3d::Zero (), radius, ADDED, is_inside, found);
+    planes.tree->looked (here, radius + covered);
+    addFound ();
+  };
   bool gap_is_empty = false;
   for (int round = 0; round < ROUNDS && !star.empty (); ++round) {
-    const std::size_t known = added_.size ();
+    const std::size_t known = added.size ();
     if (open && !gap_is_empty) {
-      lookAhead (centre, star);
-      gap_is_empty = added_.size () == known;
+      lookAhead ();
+      gap_is_empty = added.size () == known;
     }
     for (std::size_t i = open ? 1 : 0; i < star.size (); ++i)
-      lookIntoCircle (centre, star[i == 0 ? star.size () - 1 : i - 1], star[i]);
-    if (added_.size () == known)
+      lookIntoCircle (star[i == 0 ? star.size () - 1 : i - 1].offset, star[i].offset);
+    if (added.size () == known)
       break;
-    for (std::size_t i = known; i < added_.size (); ++i)
-      candidates.push_back ({unrolled (frame, positions_[added_[i]] - positions_[p]), added_[i]});
+    for (std::size_t i = known; i < added.size (); ++i)
+      candidates.push_back ({unrolled (frame, positions[added[i]] - here), added[i]});
     star = candidates;
-    open = planar_star_.make (star);
+    open = planar_star.make (star);
   }
   return open;
 }

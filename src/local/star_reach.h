@@ -6,7 +6,6 @@
 #include "core/csr_lists.h"
 #include "core/geometry.h"
 #include "local/planar_star.h"
-#include "local/planes.h"
 #include "points/kd_tree.h"
 #include "points/neighbors.h"
 
@@ -16,10 +15,32 @@ namespace pcl::floater {
 /// spacing.
 constexpr float REACH_AS_SPACING = 0.5F;
 
+/// Thresholds that separate sheets. Chosen on the clouds of the first benchmark: wide enough for
+/// sharp edges of 90 degrees; unreliable for thin sheets.
+struct SheetLimits
+{
+  double plane_sine = 0.75;   ///< of the angle, 49 degrees, between a tangent plane and a neighbour
+  double normal_cosine = 0.3; ///< of the angle, 72 degrees, between normals
+};
+
+/// True if a neighbour at `offset` lies within the limits of both tangent planes, and the unsigned
+/// normals agree.
+inline bool
+onSameSheet (const Vector3d& normal, const Vector3d& other_normal, const Vector3d& offset,
+             const SheetLimits& limits = {})
+{
+  const double limit = limits.plane_sine * offset.norm ();
+  return std::abs (normal.dot (offset)) <= limit && std::abs (other_normal.dot (offset)) <= limit &&
+         std::abs (normal.dot (other_normal)) >= limits.normal_cosine;
+}
+
+/// Aspect of points (see Plane::aspect) below which they lie on a line: points on one with noise of one
+/// step are below, a third of an evenly sampled disc is above.
+constexpr double LINE_ASPECT = 0.05;
+
 /// The line through a point and its neighbours, if they lie on one.
-/// \param least_aspect see PlaneLimits
 std::optional<Line>
-lineThrough (const Positions& positions, Index p, Row row, double least_aspect);
+lineThrough (const Positions& positions, Index p, Row row, double least_aspect = LINE_ASPECT);
 
 /// Whether a point, at an offset from one on a line, lies beside the line.
 bool
@@ -45,31 +66,16 @@ struct LocalPlanes
 };
 
 /// Finds the neighbours beside the line of a point, if it is on one, by two searches.
-class BesideSearch
+struct BesideSearch
 {
-public:
-  /// \param planes with neighbours, spacing and tree; must outlive this
-  BesideSearch (const Positions& positions, const LocalPlanes& planes, double least_aspect)
-      : positions_ (positions), planes_ (planes), least_aspect_ (least_aspect)
-  {
-  }
+  const Positions& positions;
+  const LocalPlanes& planes;                          ///< with neighbours, spacing and tree
+  std::array<std::vector<Neighbor>, 2> found_on = {}; ///< the sides of the last point on a line
 
   /// \param row in: the neighbours of p; out: with those beside its line
   /// \return see BesideLines::reach
   float extend (Index p, std::vector<Index>& row);
-
-private:
-  const Positions& positions_;
-  const LocalPlanes& planes_;
-  double least_aspect_;
-  std::array<std::vector<Neighbor>, 2> found_on_; // the sides of the last point on a line
 };
-
-/// Finds neighbours beside lines. O(n k) and two searches for each point on a line.
-/// \param planes with neighbours, spacing and tree
-BesideLines
-findBesideLines (const Positions& positions, const LocalPlanes& planes, double least_aspect,
-                 const RunContext& run);
 
 /// Appends lists to others, row by row, in place. O(entries).
 void
@@ -88,14 +94,13 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open);
 /// equals the star of all points (on the same sheet) if all of its circumcircles lie in the ball
 /// that was searched. Otherwise the points in the circles are searched, and in the gap of an open
 /// star.
-class StarReach
+struct StarReach
 {
-public:
-  /// \param positions, planes must outlive this
-  StarReach (const Positions& positions, const LocalPlanes& planes, const SheetLimits& sheets)
-      : positions_ (positions), planes_ (planes), sheets_ (sheets)
-  {
-  }
+  const Positions& positions;
+  const LocalPlanes& planes;
+  std::vector<Index> added = {}; ///< neighbours, by the last call to extend ()
+  PlanarStar planar_star = {};   ///< scratch, like the next
+  std::vector<Neighbor> found = {};
 
   /// \param frame      of the plane of the star
   /// \param row        neighbours of p
@@ -105,31 +110,6 @@ public:
   /// \return whether the star is open
   bool extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
                std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star);
-
-  /// Neighbours added by the last call to extend ().
-  const std::vector<Index>& added () const { return added_; }
-
-private:
-  struct Centre
-  {
-    Index point;
-    const TangentFrame& frame;
-    Row row;
-    double sqr_searched; // all points within this squared distance are in the row
-    double farthest;
-  };
-
-  bool isNew (const Centre& centre, const Neighbor& neighbor, double sqr_distance,
-              const SheetLimits& sheets) const;
-  void lookAhead (const Centre& centre, const std::vector<PlanarNeighbor>& star);
-  void lookIntoCircle (const Centre& centre, const PlanarNeighbor& a, const PlanarNeighbor& b);
-
-  const Positions& positions_;
-  const LocalPlanes& planes_;
-  SheetLimits sheets_;
-  PlanarStar planar_star_;
-  std::vector<Index> added_;
-  std::vector<Neighbor> found_;
 };
 
 } // namespace pcl::floater

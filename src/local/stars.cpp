@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 #include "local/planar_star.h"
-#include "local/planes.h"
 
 namespace pcl::floater {
 namespace {
@@ -26,7 +25,7 @@ public:
         beyond_ (beyond)
   {
     if (beyond != nullptr)
-      reach_.emplace (positions, *beyond, settings.limits);
+      reach_.emplace (StarReach{positions, *beyond});
   }
 
   /// Makes the star of p; sets `normal` to the normal of its plane. Returns true if the star is
@@ -59,7 +58,7 @@ public:
   const std::vector<PlanarNeighbor>& star () const { return star_.neighbors; }
 
   /// Far neighbours of the last star.
-  const std::vector<Index>& added () const { return reach_->added (); }
+  const std::vector<Index>& added () const { return reach_->added; }
 
 private:
   struct Star
@@ -92,7 +91,7 @@ private:
 
   bool leavesPlanes (const Vector3d& normal, Index q, const Vector3d& offset) const
   {
-    const double limit = settings_.limits.plane_sine * offset.norm ();
+    const double limit = SheetLimits{}.plane_sine * offset.norm ();
     return std::abs (normal.dot (offset)) > limit &&
            std::abs (normals_[q].cast<double> ().dot (offset)) > limit;
   }
@@ -115,13 +114,13 @@ private:
       const Vector3d offset = positions_[q] - positions_[p];
       if (tier == Tier::ALL ||
           (tier == Tier::EITHER_PLANE
-               ? onSameSheet (frame.normal, normals_[q].cast<double> (), offset, settings_.limits)
+               ? onSameSheet (frame.normal, normals_[q].cast<double> (), offset)
                : !leavesPlanes (frame.normal, q, offset)))
         addCandidate (p, q, frame, star);
     }
     star.neighbors = star.candidates;
-    return settings_.kind == StarKind::DELAUNAY ? planar_star_.make (star.neighbors)
-                                                : planar_star_.order (star.neighbors);
+    return settings_.with_all ? planar_star_.order (star.neighbors)
+                              : planar_star_.make (star.neighbors);
   }
 
   const Positions& positions_;
@@ -134,74 +133,29 @@ private:
   Star star_, wider_;
 };
 
-// Maximum over each point and its nearest neighbours: in a noisy row of points, some stars are
-// narrow.
-std::vector<float>
-largestAround (const std::vector<float>& values, const CsrLists& neighbors, const RunContext& run)
-{
-  constexpr std::size_t NEAREST = 6;
-  std::vector<float> largest = values;
-  parallelPoints (run, values.size (), [&] (Index p) {
-    for (const Index q : neighbors.first (p, NEAREST))
-      largest[p] = std::max (largest[p], values[q]);
-  });
-  return largest;
-}
-
-// Stars that are made in parallel, whose lists are then joined.
-class StarsInMaking
-{
-public:
-  // \param count stars are made for so many points, in their order
-  // \param size  of the arrays
-  StarsInMaking (std::size_t count, std::size_t size, bool with_offsets)
-      : ids_ (count), far_ (count), offsets_ (count), with_offsets_ (with_offsets)
-  {
-    stars.open.resize (size);
-    stars.normals.resize (size);
-    stars.neighbors.offsets.assign (size + 1, 0);
-    stars.far_neighbors.offsets.assign (size + 1, 0);
-  }
-
-  // Takes the star of a point, by the range that begins at `first`.
-  void add (std::size_t first, std::size_t p, const std::vector<PlanarNeighbor>& star)
-  {
-    stars.neighbors.offsets[p + 1] = static_cast<Index> (star.size ());
-    std::vector<Index>& ids = ids_.of (first);
-    if (ids.empty ())
-      ids.reserve (7 * RANGE_LENGTH); // stars have 6 neighbours on average
-    for (const PlanarNeighbor& neighbor : star) {
-      ids.push_back (neighbor.point);
-      if (with_offsets_)
-        offsets_.of (first).push_back (neighbor.offset);
-    }
-  }
-
-  void addFar (std::size_t first, std::size_t p, const std::vector<Index>& far)
-  {
-    stars.far_neighbors.offsets[p + 1] = static_cast<Index> (far.size ());
-    far_.of (first).insert (far_.of (first).end (), far.begin (), far.end ());
-  }
-
-  Stars end ()
-  {
-    sumRowLengths (stars.neighbors.offsets);
-    sumRowLengths (stars.far_neighbors.offsets);
-    stars.neighbors.ids = ids_.join ();
-    stars.far_neighbors.ids = far_.join ();
-    stars.offsets_in_plane = offsets_.join ();
-    return std::move (stars);
-  }
-
-  Stars stars; // its lists have the length of each row instead of the offsets
-
-private:
-  RangeLists<Index> ids_, far_;
-  RangeLists<Vector2d> offsets_;
-  bool with_offsets_;
-};
-
 } // namespace
+
+Vector3d
+meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals& normals, Index p)
+{
+  constexpr std::size_t FIRST_RING = 8; // neighbours in the mean: the first ring
+  constexpr double PERPENDICULAR = 0.1; // cosine below which its sign is unreliable
+  const Vector3d normal = normals[p].cast<double> ();
+  Vector3d sum = normal;
+  const Row row = neighbors.row (p);
+  for (std::size_t i = 0; i < std::min (FIRST_RING, row.size ()); ++i) {
+    const Vector3d other = normals[row[i]].cast<double> ();
+    double same = normal.dot (other);
+    if (std::abs (same) < PERPENDICULAR) {
+      // Two faces at a right angle: either both bend towards the other's normal, or both away.
+      const Vector3d step = positions[row[i]] - positions[p];
+      same = -step.dot (normal) * step.dot (other);
+    }
+    sum += same < 0.0 ? Vector3d (-other) : other;
+  }
+  const double length = sum.norm ();
+  return length > 0.0 ? Vector3d (sum / length) : normal;
+}
 
 Stars
 makeStars (const Positions& positions, const CsrLists& neighbors, const Normals& normals,
@@ -209,23 +163,34 @@ makeStars (const Positions& positions, const CsrLists& neighbors, const Normals&
            const LocalPlanes* beyond)
 {
   const std::size_t n = positions.size ();
-  StarsInMaking made (rows.size (), n, settings.with_offsets);
-  Stars& stars = made.stars;
+  Stars stars;
+  stars.open.resize (n);
+  stars.normals.resize (n);
   stars.reach.resize (beyond != nullptr ? n : 0);
+  RangeRows made (rows.size (), n), far (rows.size (), n);
+  RangeLists<Vector2d> offsets (rows.size ());
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, neighbors, normals, settings, beyond);
     for (std::size_t row = first; row < last; ++row) {
       const Index p = rows[row];
       stars.open[p] = maker.make (p, stars.normals[p]) ? 1 : 0;
-      made.add (first, p, maker.star ());
+      for (const PlanarNeighbor& neighbor : maker.star ()) {
+        made.add (first, p, neighbor.point);
+        if (settings.with_offsets)
+          offsets.of (first).push_back (neighbor.offset);
+      }
       if (beyond == nullptr)
         continue;
       stars.reach[p] = std::max (beyond->beside.reach[p],
                                  static_cast<float> (reachOf (maker.star (), stars.open[p] != 0)));
-      made.addFar (first, p, maker.added ());
+      for (const Index q : maker.added ())
+        far.add (first, p, q);
     }
   });
-  return made.end ();
+  stars.neighbors = made.join ();
+  stars.far_neighbors = far.join ();
+  stars.offsets_in_plane = offsets.join ();
+  return stars;
 }
 
 Stars
@@ -237,58 +202,43 @@ finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
   // and steps of density of 5 to 30; below 2.3 on uniformly random points.
   constexpr double GAP_RATIO = 1.8;
   const std::size_t n = positions.size ();
-  begun.reach = largestAround (begun.reach, planes.neighbors, run);
+  // Maximum over the nearest neighbours as well: in a noisy row of points, some stars are narrow.
+  constexpr std::size_t NEAREST = 6;
+  const std::vector<float> own_reach = begun.reach;
+  parallelPoints (run, n, [&] (Index p) {
+    for (const Index q : planes.neighbors.first (p, NEAREST))
+      begun.reach[p] = std::max (begun.reach[p], own_reach[q]);
+  });
   if (begun.far_neighbors.ids.empty ())
     return begun;
-  StarsInMaking made (n, n, settings.with_offsets);
-  made.stars.open = std::move (begun.open);
-  made.stars.normals = std::move (begun.normals);
+  RangeRows made (n, n), far (n, n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     StarMaker maker (positions, planes.neighbors, planes.normals, settings, nullptr);
-    std::vector<PlanarNeighbor> star;
-    std::vector<Index> far;
-    for (std::size_t p = first; p < last; ++p) {
-      const Row row = begun.neighbors.row (p), all_far = begun.far_neighbors.row (p);
-      far.clear ();
-      std::copy_if (all_far.begin (), all_far.end (), std::back_inserter (far), [&] (Index q) {
+    std::vector<Index> near; // of the far neighbours
+    for (auto p = static_cast<Index> (first); p < last; ++p) {
+      const Row all_far = begun.far_neighbors.row (p);
+      near.clear ();
+      std::copy_if (all_far.begin (), all_far.end (), std::back_inserter (near), [&] (Index q) {
         const auto reach = static_cast<double> (std::max (begun.reach[p], begun.reach[q]));
         return (positions[q] - positions[p]).norm () <= GAP_RATIO * reach;
       });
-      made.addFar (first, p, far);
-      if (far.size () < all_far.size ()) {
-        const auto point = static_cast<Index> (p);
-        made.stars.open[p] = maker.make (point, far, made.stars.normals[p]) ? 1 : 0;
-        made.add (first, p, maker.star ());
+      for (const Index q : near)
+        far.add (first, p, q);
+      if (near.size () == all_far.size ()) {
+        for (const Index q : begun.neighbors.row (p))
+          made.add (first, p, q);
         continue;
       }
-      star.clear ();
-      for (std::size_t i = 0; i < row.size (); ++i)
-        star.push_back ({settings.with_offsets
-                             ? begun.offsets_in_plane[begun.neighbors.offsets[p] + i]
-                             : Vector2d (0.0, 0.0),
-                         row[i]});
-      made.add (first, p, star);
+      begun.open[p] = maker.make (p, near, begun.normals[p]) ? 1 : 0;
+      for (const PlanarNeighbor& neighbor : maker.star ())
+        made.add (first, p, neighbor.point);
     }
   });
-  made.stars.reach = std::move (begun.reach);
-  begun = {};
-  return made.end ();
-}
-
-bool
-hasTriangle (const Stars& stars, Index p, Index q, Index r)
-{
-  const Row row = stars.neighbors.row (p);
-  const std::size_t count = row.size ();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (row[i] != q)
-      continue;
-    const bool last = i + 1 == count;
-    if (!(last && stars.open[p] != 0) && row[last ? 0 : i + 1] == r)
-      return true;
-    return !(i == 0 && stars.open[p] != 0) && row[i == 0 ? count - 1 : i - 1] == r;
-  }
-  return false;
+  begun.neighbors = {};
+  begun.far_neighbors = {};
+  begun.neighbors = made.join ();
+  begun.far_neighbors = far.join ();
+  return begun;
 }
 
 std::vector<float>

@@ -5,25 +5,19 @@
 
 #include "core/csr_lists.h"
 #include "core/run_context.h"
-#include "local/planes.h"
 #include "local/star_reach.h"
 #include "points/neighbors.h"
 
 namespace pcl::floater {
-/// Neighbours that become part of a star.
-enum class StarKind
-{
-  DELAUNAY, ///< neighbours of the centre in the Delaunay triangulation of its tangent plane
-  ALL       ///< all, in anti-clockwise order; several may lie in one direction
-};
-
 struct StarSettings
 {
   bool filter_sheets = true; ///< leave out neighbours on another sheet of the surface
-  StarKind kind = StarKind::DELAUNAY;
-  bool reach_beyond = false; ///< see StarReach; for makeLocalGeometry
-  bool with_offsets = true;  ///< keep offsets_in_plane: 16 bytes per entry
-  SheetLimits limits{};
+  bool with_all =
+      false; ///< all neighbours, of which several may lie in one direction; not only those
+             ///< of the centre in the Delaunay triangulation of its tangent plane
+  bool reach_beyond = false;  ///< see StarReach; for makeLocalGeometry
+  bool with_offsets = true;   ///< keep offsets_in_plane: 16 bytes per entry; not for finishStars
+  bool planes_of_all = false; ///< tangent planes use all neighbours (TW 385, section 4.1)
 };
 
 /// Stars of the points in their tangent planes: the neighbours connected to the centre,
@@ -41,6 +35,12 @@ struct Stars
   std::vector<float> reach; ///< maximum reach of a star and those around, see reachOf; empty if no
                             ///< star was to reach farther
 };
+
+/// Mean of the normals of a point and its 8 nearest neighbours, unit length, on the side of its
+/// own. At a sharp edge the least-squares plane follows one of the faces; the mean lies between
+/// them.
+Vector3d
+meanNormal (const Positions& positions, const CsrLists& neighbors, const Normals& normals, Index p);
 
 /// Stars of some points. The sheet filter removes neighbours on another sheet of the surface, in
 /// tiers:
@@ -63,15 +63,6 @@ makeStars (const Positions& positions, const CsrLists& neighbors, const Normals&
            const Rows& rows, const StarSettings& settings, const RunContext& run,
            const LocalPlanes* beyond = nullptr);
 
-/// Stars by the planes, beyond the neighbours if the settings ask for that.
-inline Stars
-makeStars (const Positions& positions, const LocalPlanes& planes, const Rows& rows,
-           const StarSettings& settings, const RunContext& run)
-{
-  return makeStars (positions, planes.neighbors, planes.normals, rows, settings, run,
-                    settings.reach_beyond ? &planes : nullptr);
-}
-
 /// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum
 /// around, then removes far neighbours across a hole again: those too far for the reach of both
 /// ends.
@@ -80,9 +71,26 @@ Stars
 finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
              const StarSettings& settings, const RunContext& run);
 
-/// True if the star of p has a triangle with q and r, in either order. O(neighbours in the star).
+/// Whether test (q, r) is true for a triangle of the star of p with q and r, anti-clockwise. The first
+/// such triangle is the last one tested. O(neighbours in the star).
+template <typename Test>
 bool
-hasTriangle (const Stars& stars, Index p, Index q, Index r);
+anyTriangle (const Stars& stars, Index p, Test&& test)
+{
+  const Row row = stars.neighbors.row (p);
+  for (std::size_t i = 0; i + stars.open[p] < row.size (); ++i)
+    if (test (row[i], row[i + 1 < row.size () ? i + 1 : 0]))
+      return true;
+  return false;
+}
+
+/// Whether the star of p has a triangle with q and r, in either order. O(neighbours in the star).
+inline bool
+hasTriangle (const Stars& stars, Index p, Index q, Index r)
+{
+  return anyTriangle (
+      stars, p, [q, r] (Index a, Index b) { return (a == q && b == r) || (a == r && b == q); });
+}
 
 /// Share of the neighbours in each point's star that have the point in theirs; 0 without
 /// neighbours. It is 1 for the Delaunay triangulation of a smooth, densely sampled surface, also on

@@ -4,7 +4,7 @@
 
 #include "core/geometry.h"
 #include "local/planar_star.h"
-#include "local/planes.h"
+#include "local/star_reach.h"
 #include "mesh/hole_filling.h"
 
 namespace pcl::floater {
@@ -262,7 +262,7 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Po
     planar.clear ();
     for (const Index q : neighbors.row (p)) {
       const Vector3d offset = positions[q] - positions[p];
-      if (!same_sheet || onSameSheet (frame.normal, normals[q].cast<double> (), offset, {}))
+      if (!same_sheet || onSameSheet (frame.normal, normals[q].cast<double> (), offset))
         planar.push_back ({frame.project (offset), q});
     }
     star.order (planar);

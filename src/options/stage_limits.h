@@ -6,14 +6,11 @@
 
 #include "consensus/consensus_method.h"
 #include "core/run_context.h"
-#include "local/planes.h"
-#include "points/net.h"
 #include "view/view_method.h"
 
 namespace pcl::floater {
 struct Limits
 {
-  NetLimits net;
   SurfaceLimits surface;
   ViewLimits view;
 };
@@ -40,18 +37,6 @@ asksForDisc (const Options& options)
   return options.topology == Topology::DISC || !options.disc.boundary.loop.empty ();
 }
 
-/// With DiscOptions::as_published, tangent planes use all neighbours (section 4.1).
-inline PlaneLimits
-planeLimits (const Options& options)
-{
-  PlaneLimits limits;
-  if (options.disc.as_published) {
-    limits.core_points = std::numeric_limits<std::size_t>::max ();
-    limits.sheet_sine = 1.0;
-  }
-  return limits;
-}
-
 /// Settings for the stars of the points.
 inline StarSettings
 starSettings (const Options& options)
@@ -60,6 +45,7 @@ starSettings (const Options& options)
   settings.filter_sheets = options.filter_sheets;
   settings.with_offsets = asksForDisc (options);
   settings.reach_beyond = !asksForDisc (options) && !isInBalls (options.neighbors.kind);
+  settings.planes_of_all = options.disc.as_published;
   return settings;
 }
 

@@ -63,9 +63,10 @@ public:
   /// The k nearest points to `query` within `radius` for which accept (neighbor, position) is true,
   /// nearest first. Points behind the plane through `query` with the normal `ahead` may be skipped,
   /// and accept must reject them; a zero normal means no plane. Overwrites the result.
+  /// \return the radius that the search has covered
   template <typename Accept>
-  void nearestIf (const Vector3d& query, const Vector3d& ahead, double radius, std::size_t k,
-                  Accept&& accept, std::vector<Neighbor>& result) const;
+  double nearestIf (const Vector3d& query, const Vector3d& ahead, double radius, std::size_t k,
+                    Accept&& accept, std::vector<Neighbor>& result) const;
 
 private:
   struct Node
@@ -163,7 +164,7 @@ KdTree::search (Index node, const Vector3d& query, Visit& visit) const
 }
 
 template <typename Accept>
-void
+double
 KdTree::nearestIf (const Vector3d& query, const Vector3d& ahead, double radius, std::size_t k,
                    Accept&& accept, std::vector<Neighbor>& result) const
 {
@@ -189,6 +190,7 @@ KdTree::nearestIf (const Vector3d& query, const Vector3d& ahead, double radius, 
   Accepted visit{{result, std::min (k, items_.size ()), radius * radius}, query, ahead, accept};
   search (0, query, visit);
   visit.nearest.end ();
+  return !result.empty () && result.size () == k ? std::sqrt (result.back ().sqr_distance) : radius;
 }
 
 /// The k nearest points to points that mostly are near their predecessors, as along a space-filling
@@ -231,10 +233,10 @@ private:
   double last_reach_ = KdTree::EVERYWHERE;
   Vector3d centre_ = Vector3d::Zero (); // of the ball
   double radius_ = -1.0;                // of the ball; negative: there is none
-  std::vector<Index> ball_;             // points in the ball, and their coordinates
-  std::array<std::vector<double>, 3> places_;
-  std::vector<double> sqr_distances_; // of these to the query
-  std::vector<Neighbor> near_;        // points within reach, unordered
+  std::vector<Index> ball_;             // points in the ball
+  Eigen::ArrayX3d places_;              // their coordinates
+  Eigen::ArrayXd sqr_distances_;        // of these to the query
+  std::vector<Neighbor> near_;          // points within reach, unordered
 };
 
 } // namespace pcl::floater

@@ -153,26 +153,20 @@ CsrLists
 searchEach (const Rows& rows, const NeighborOptions& options, Search&& search,
             const RunContext& run)
 {
-  CsrLists lists;
-  lists.offsets.assign (rows.size () + 1, 0);
-  RangeLists<Index> ranges (rows.size ());
+  const bool in_balls = isInBalls (options.kind);
+  RangeRows lists (rows.size (), rows.size ());
   parallelRanges (run, rows.size (), [&] (std::size_t first, std::size_t last) {
     std::vector<Neighbor> found;
     for (std::size_t i = first; i < last; ++i) {
-      const bool in_balls = isInBalls (options.kind);
       search (rows[i], KdTree::EVERYWHERE,
               in_balls ? SPACING_NEIGHBORS : static_cast<std::size_t> (options.k), found);
       if (in_balls)
         search (rows[i], ballRadius (found, options.ball_radius), MOST_IN_BALL, found);
       for (const Neighbor& neighbor : found)
-        ranges.of (first).push_back (neighbor.point);
-      lists.offsets[i + 1] = static_cast<Index> (found.size ());
+        lists.add (first, i, neighbor.point);
     }
   });
-  requireListed (ranges.size ());
-  sumRowLengths (lists.offsets);
-  lists.ids = ranges.join ();
-  return lists;
+  return lists.join ();
 }
 
 CsrLists
@@ -227,6 +221,16 @@ spacingOf (const Positions& positions, Index p, const Row& row)
   return count > 0 ? sum / static_cast<double> (count) : 0.0;
 }
 
+std::vector<float>
+localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run)
+{
+  std::vector<float> spacing (positions.size ());
+  parallelPoints (run, spacing.size (), [&] (Index p) {
+    spacing[p] = static_cast<float> (spacingOf (positions, p, neighbors.row (p)));
+  });
+  return spacing;
+}
+
 CsrLists
 findNeighbors (const Points& points, const NeighborSettings& settings, const RunContext& run,
                std::optional<KdTree>* tree)
@@ -252,24 +256,16 @@ renewNeighbors (const Points& points, const std::vector<Index>& removed, const C
         !isGone (p) && std::any_of (row.begin (), row.end (), isGone))
       changed.push_back (number[p]);
   const CsrLists renewed = findNeighborsOf (Rows::of (changed), points, settings, run);
-  CsrLists lists;
-  lists.offsets.reserve (kept + std::size_t{1});
-  lists.offsets.push_back (0);
-  lists.ids.reserve (neighbors.ids.size ());
-  std::size_t next = 0; // among the changed
-  for (Index p = 0; p < number.size (); ++p) {
-    if (isGone (p))
-      continue;
-    if (next < changed.size () && changed[next] == number[p]) {
-      const Row row = renewed.row (next++);
-      lists.ids.insert (lists.ids.end (), row.begin (), row.end ());
+  return makeCsrLists (kept, [&] (const auto& emit) {
+    std::size_t next = 0; // among the changed
+    for (Index p = 0; p < number.size (); ++p) {
+      if (isGone (p))
+        continue;
+      const bool is_changed = next < changed.size () && changed[next] == number[p];
+      for (const Index q : is_changed ? renewed.row (next++) : neighbors.row (p))
+        emit (number[p], is_changed ? q : number[q]);
     }
-    else
-      for (const Index q : neighbors.row (p))
-        lists.ids.push_back (number[q]);
-    lists.offsets.push_back (static_cast<Index> (lists.ids.size ()));
-  }
-  return lists;
+  });
 }
 
 } // namespace pcl::floater

@@ -14,28 +14,21 @@
 
 namespace pcl::floater {
 /// Points to work on, ascending: all, a range, or a list. The list must outlive this.
-class Rows
+struct Rows
 {
-public:
   static Rows all (std::size_t points) { return {nullptr, 0, points}; }
-  static Rows range (Index first, Index last) { return {nullptr, first, last - first}; }
+  static Rows range (Index begin, Index end) { return {nullptr, begin, end - begin}; }
   static Rows of (const std::vector<Index>& points) { return {points.data (), 0, points.size ()}; }
 
-  std::size_t size () const { return count_; }
+  std::size_t size () const { return count; }
   Index operator[] (std::size_t i) const
   {
-    return points_ ? points_[i] : first_ + static_cast<Index> (i);
+    return listed ? listed[i] : first + static_cast<Index> (i);
   }
 
-private:
-  Rows (const Index* points, Index first, std::size_t count)
-      : points_ (points), first_ (first), count_ (count)
-  {
-  }
-
-  const Index* points_;
-  Index first_; // if none are listed
-  std::size_t count_;
+  const Index* listed; ///< nullptr: those from the first on
+  Index first;
+  std::size_t count;
 };
 
 /// The k nearest other points of the points in `rows`, nearest first, ties by index; fewer if there
@@ -55,6 +48,12 @@ constexpr std::size_t SPACING_NEIGHBORS = 6;
 /// Mean distance of a point to its SPACING_NEIGHBORS nearest, by its row; 0 if it has no neighbours.
 double
 spacingOf (const Positions& positions, Index p, const Row& row);
+
+/// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
+/// triangulation that is the length of an edge. O(n).
+/// \param neighbors nearest first
+std::vector<float>
+localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run);
 
 inline bool
 isInBalls (Neighborhood kind)

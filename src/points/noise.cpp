@@ -325,8 +325,6 @@ measureNoise (const Positions& positions, const CsrLists& neighbors, const RunCo
 bool
 isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share)
 {
-  if (noise.noisy_points == 0)
-    return false;
   double disturbed = 0.0;
   for (std::size_t p = 0; p < agreement.size (); ++p)
     if (noise.at_point[p] > 0.0F)

@@ -24,25 +24,8 @@ struct GrossOutliers
 GrossOutliers
 findGrossOutliers (const Positions& positions, const RunContext& run);
 
-/// Thresholds of points off any surface. Distances are in reaches: the distance of a point to its
-/// 6th nearest neighbour, about 1.3 spacings. Chosen on seeded clouds with outliers strewn into
-/// their boxes, and on the clouds of the first benchmark, which lose no point; a thin spike of the
-/// surface may.
-struct OutlierLimits
-{
-  double far = 5.0;        ///< distance to the rest, in reaches, from which on a small cluster lies
-                           ///< apart
-  double off_plane = 1.75; ///< distance to its neighbours' plane, in reaches, from which on a point
-                           ///< lies apart
-  double flat = 0.25; ///< maximum of the neighbours' median distance to their plane, relative to
-                      ///< that
-  double stray = 3.0; ///< times that median: neighbours beyond do not belong to the plane
-  std::size_t cluster = 7; ///< largest cluster that may be left out, in points
-  std::size_t own = 12;    ///< number of nearest neighbours that count as close
-  std::size_t owners = 4;  ///< a point is kept if at least this many points count it as close
-};
-
-/// Outliers, ascending. An outlier lies apart in one of two ways:
+/// Outliers, ascending. The reach of a point is the distance to its 6th nearest neighbour, about 1.3
+/// spacings. An outlier lies apart in one of two ways:
 /// - it and at most 6 others are farther from all else than 5 times the reach of the points there;
 /// - it lies off the plane of its neighbours by more than 1.75 times their reach, while they lie
 ///   well on that plane without it;
@@ -52,7 +35,6 @@ struct OutlierLimits
 /// per point, in one thread where points lie apart.
 /// \param neighbors of each point, nearest first
 std::vector<Index>
-findOutliers (const Positions& positions, const CsrLists& neighbors, const RunContext& run,
-              const OutlierLimits& limits = {});
+findOutliers (const Positions& positions, const CsrLists& neighbors, const RunContext& run);
 
 } // namespace pcl::floater

@@ -110,7 +110,15 @@ KdTree
 BlockSearch::makeTree (const RunContext& run)
 {
   KdTree tree (positions_, run, PointOrder::ALONG_CURVE);
-  tree.watch = [this] (const Vector3d& centre, double radius) { looked (centre, radius); };
+  tree.watch = [this] (const Vector3d& centre, double radius) {
+    const auto isHere = [&] (const Ball& ball) {
+      return ((ball.centre - centre).norm () + radius) * ENLARGED <= ball.radius;
+    };
+    if (radius * ENLARGED <= halo_ || std::any_of (balls_.begin (), balls_.end (), isHere))
+      return;
+    const std::lock_guard<std::mutex> lock (mutex_);
+    missing_.push_back ({centre, radius * ENLARGED * ENLARGED});
+  };
   return tree;
 }
 
@@ -123,20 +131,6 @@ BlockSearch::widen ()
   missing_.clear ();
   cut ();
   return true;
-}
-
-void
-BlockSearch::looked (const Vector3d& centre, double radius)
-{
-  if (radius * ENLARGED <= halo_)
-    return;
-  const auto isHere = [&] (const Ball& ball) {
-    return ((ball.centre - centre).norm () + radius) * ENLARGED <= ball.radius;
-  };
-  if (std::any_of (balls_.begin (), balls_.end (), isHere))
-    return;
-  const std::lock_guard<std::mutex> lock (mutex_);
-  missing_.push_back ({centre, radius * ENLARGED * ENLARGED});
 }
 
 } // namespace pcl::floater

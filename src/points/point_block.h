@@ -74,7 +74,6 @@ private:
     double radius;
   };
 
-  void looked (const Vector3d& centre, double radius);
   void cut ();
 
   const BlockCutter& cutter_;

@@ -268,15 +268,13 @@ removePoints (Points& points, const std::vector<Index>& removed)
   if (diagonal > 0.0) {
     int exponent = 0;
     std::frexp (diagonal, &exponent);
-    exponent = std::min (exponent, 0); // a box of diagonal 1 stays as it is
-    if (exponent != 0)
-      for (auto* positions : {&points.positions, &points.stacked.positions, &points.stacked.own})
-        for (Vector3d& position : *positions)
-          position = Vector3d (std::ldexp (position.x (), -exponent),
-                               std::ldexp (position.y (), -exponent),
-                               std::ldexp (position.z (), -exponent));
-    points.diagonal = std::ldexp (diagonal, -exponent);
-    points.scale = std::ldexp (points.scale, exponent);
+    const double factor =
+        std::ldexp (1.0, -std::min (exponent, 0)); // diagonals of 1 stay as they are
+    for (auto* positions : {&points.positions, &points.stacked.positions, &points.stacked.own})
+      for (Vector3d& position : *positions)
+        position *= factor;
+    points.diagonal = factor * diagonal;
+    points.scale /= factor;
   }
   return cloud_indices;
 }

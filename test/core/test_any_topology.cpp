@@ -7,8 +7,8 @@
 // being skipped.
 #include <pcl/surface/floater/reconstruct.h>
 
-#include "local/planes.h"
 #include "mesh/folds.h"
+#include "points/neighbors.h"
 #include "real_clouds.h"
 #include "surface_samples.h"
 

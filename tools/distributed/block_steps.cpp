@@ -97,8 +97,7 @@ outliersStep (const Job& job, const Store& store, const Plan& plan)
   std::vector<Index> gross_outliers;
   Points points = readPoints (store, plan, gross_outliers);
   CsrLists neighbors = StoredCloud (context, {}).nearestOfAll ();
-  chooseNet (points, neighbors, {context.options.neighbors}, context.limits.net, context.run,
-             nullptr);
+  chooseNet (points, neighbors, {context.options.neighbors}, context.run, nullptr);
   const std::vector<std::uint8_t> are_stacked (points.stacked.of.empty () ? 0 : 1);
   std::vector<Index> outliers;
   if (context.options.remove_outliers)
@@ -129,8 +128,7 @@ planesStep (const StepContext& context, std::size_t block)
     around.normals = cloud.given<Eigen::Vector3f> ("normals", search.points ());
     planes = beginPlanes (around, toPlaces (search, nearest), search.makeTree (context.run),
                           settings, context.run);
-    planes = fitLocalPlanes (around, std::move (planes), settings, context.run,
-                             planeLimits (context.options));
+    planes = fitLocalPlanes (around, std::move (planes), settings, context.run);
   } while (search.widen ());
   const CsrLists beside = ofOwn (search, planes.beside.neighbors);
   put (context, "planes", block,
@@ -164,8 +162,9 @@ starsStep (const StepContext& context, std::size_t block)
     planes.spacing = toPlaces (search, own_spacing);
     planes.beside = {toPlaces (search, beside_lists), toPlaces (search, own_reach)};
     planes.tree = search.makeTree (context.run);
-    made = makeStars (search.positions (), planes,
-                      Rows::range (search.ownFirst (), search.ownLast ()), settings, context.run);
+    made = makeStars (search.positions (), planes.neighbors, planes.normals,
+                      Rows::range (search.ownFirst (), search.ownLast ()), settings, context.run,
+                      settings.reach_beyond ? &planes : nullptr);
   } while (search.widen ());
   const CsrLists stars = ofOwn (search, made.neighbors), far = ofOwn (search, made.far_neighbors);
   put (context, "stars", block,

@@ -40,7 +40,7 @@ struct StepContext
   const CommandLine& line;
   RunContext run;
   Options options = effectiveOptions (line.options);
-  Limits limits = {};
+  Limits limits{};
 };
 
 using BlockStep = void (const StepContext& context, std::size_t block);

@@ -5,7 +5,6 @@
 #include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "html_template.h"
-#include "local/planes.h"
 #include "mesh/check.h"
 #include "mesh/folds.h"
 #include "mesh/self_intersections.h"

@@ -39,10 +39,8 @@ TEST (Orientation, TheMajorityOfVotesDecides)
     const std::vector<Candidate> candidates{
         candidate ({0, 1, 3}, 0), candidate ({1, 2, 4}, 4, 2),
         candidate ({2, 0, 5}, 4, static_cast<std::uint8_t> (is_more_opposite ? 3 : 0))};
-    std::vector<const Candidate*> voters;
-    for (const Candidate& each : candidates)
-      voters.push_back (&each);
-    orientation.vote (voters.data (), voters.data () + voters.size (), 1);
+    const std::vector<Index> voters{0, 1, 2};
+    orientation.vote (candidates, {voters.data (), voters.data () + voters.size ()}, 1);
     std::vector<Eigen::Vector3f> normals (6, Eigen::Vector3f::UnitZ ());
     orientation.turn (normals, 1);
     EXPECT_EQ (normals[0].z () != normals[3].z (), is_more_opposite);

@@ -4,7 +4,6 @@
 #include "local/stars.h"
 
 #include "local/planar_star.h"
-#include "local/planes.h"
 #include "points/neighbors.h"
 #include "surface_samples.h"
 
@@ -127,7 +126,7 @@ TEST (TangentPlanes, RowsOfSinglePointsAreThoseOfAll)
   settings.reach_beyond = true;
   const LocalPlanes begun = beginPlanes (points, findNeighbors (points, {}, 1), {}, settings, 1);
   const LocalPlanes fitted = fitLocalPlanes (points, begun, settings, 1);
-  const RowOf row_of = rowsBeside (points, begun, {});
+  const RowOf row_of = rowsBeside (points, begun);
   EXPECT_GT (fitted.neighbors.ids.size (), begun.neighbors.ids.size () + points.size ());
   for (Index p = static_cast<Index> (points.size ()); p-- > 0;) { // in another order
     const Row own = row_of (p), all = fitted.neighbors.row (p);

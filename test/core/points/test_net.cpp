@@ -48,7 +48,7 @@ chosen (const Positions& cloud)
 {
   Chosen result{workingPoints (cloud), {}};
   CsrLists neighbors = findNeighbors (result.points, {}, 1);
-  result.stacks = chooseNet (result.points, neighbors, {}, {}, 1, nullptr);
+  result.stacks = chooseNet (result.points, neighbors, {}, 1, nullptr);
   EXPECT_EQ (neighbors.ids, findNeighbors (result.points, {}, 1).ids);
   return result;
 }
