@@ -95,8 +95,8 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
     const auto remake = [&] (int widest) {
       if (!settings.remake_sheets || !finish.crossing->untested.empty ())
         return;
-      remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
-                   widest, finish.remade, settings.closes_gaps, run);
+      remakeZones (mesh, positions, geometry, *finish.crossing, widest, finish.remade,
+                   settings.closes_gaps, run);
       if (finish.remade.points () == 0)
         return;
       std::size_t changes =

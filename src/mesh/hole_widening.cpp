@@ -100,14 +100,12 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
 
 void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
-            const RunContext& run)
+            const LocalGeometry& geometry, const RunContext& run)
 {
   // Of a widened loop that stays open, at least; 4 to 1: it is chosen among many for looking open, and
   // a gap that is opened counts as four windows that are filled.
   constexpr double LEAST_LOG_ODDS = 1.39;
-  const std::vector<LoopEvidence> evidence =
-      judgeLoops (mesh, loops, positions, neighbors, normals, run);
+  const std::vector<LoopEvidence> evidence = judgeLoops (mesh, loops, positions, geometry, run);
   std::vector<Index> loop_of (positions.size (), NONE); // of each point on one
   for (Index i = 0; i < loops.size (); ++i)
     for (const Index p : loops[i].points)
@@ -117,8 +115,8 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Position
   if (!over.empty ()) {
     TriangleMesh widened = mesh;
     removeOver (over, widened, run);
-    wide = widenedLoops (widened, loops, over, loop_of, positions, spacing, run);
-    judgeLoops (widened, wide, positions, neighbors, normals, run);
+    wide = widenedLoops (widened, loops, over, loop_of, positions, geometry.spacing, run);
+    judgeLoops (widened, wide, positions, geometry, run);
   }
   std::vector<BoundaryLoop*> best;
   for (Index i = 0; i < loops.size (); ++i)

@@ -4,7 +4,6 @@
 
 #include "core/geometry.h"
 #include "local/planar_star.h"
-#include "local/planes.h"
 #include "mesh/hole_filling.h"
 
 namespace pcl::floater {
@@ -252,15 +251,16 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
 
 std::vector<LoopEvidence>
 judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const CsrLists& neighbors, const Normals& normals, const RunContext& run)
+            const LocalGeometry& geometry, const RunContext& run)
 {
+  const Normals& normals = geometry.stars.normals;
   PlanarStar star;
   std::vector<PlanarNeighbor> planar;
   // Whether a point has a large sector without neighbours, on its own sheet or on any.
   const auto hasEmptySector = [&] (Index p, bool same_sheet) {
     const TangentFrame frame (normals[p].cast<double> ());
     planar.clear ();
-    for (const Index q : neighbors.row (p)) {
+    for (const Index q : geometry.neighbors.row (p)) {
       const Vector3d offset = positions[q] - positions[p];
       if (!same_sheet || onSameSheet (frame.normal, normals[q].cast<double> (), offset, {}))
         planar.push_back ({frame.project (offset), q});

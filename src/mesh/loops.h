@@ -3,7 +3,7 @@
 // Boundary loops: how they are found, measured, and widened, and which stay open.
 #pragma once
 
-#include "core/csr_lists.h"
+#include "local/local_geometry.h"
 #include "mesh/triangle_mesh.h"
 
 #include <pcl/surface/floater/options.h>
@@ -81,13 +81,12 @@ isDoubtful (const LoopJudgement& judgement);
 /// Judges all measured loops that have points. Uses the mesh three rings into the surface, and the
 /// neighbours of the points of each loop. O(n + k log k) for a point of k neighbours, with n for the
 /// points of all rings, and O(m^3) for a loop of m points, up to 64.
-/// \param mesh      with its loops open
-/// \param neighbors of each point of the mesh
-/// \param normals   of each point of the mesh, unit length, any sign
+/// \param mesh     with its loops open
+/// \param geometry neighbours and normals of each point of the mesh; these have any sign
 /// \return evidence of each loop, in the order of the loops
 std::vector<LoopEvidence>
 judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const CsrLists& neighbors, const Normals& normals, const RunContext& run);
+            const LocalGeometry& geometry, const RunContext& run);
 
 /// Changes the judgements of loops that are not certain by those of the loops of about the same width:
 /// a surface has several windows of one size, or many gaps of one sampling. The width is not measured
@@ -116,11 +115,10 @@ chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const
 /// Judges loops, and removes triangles over a hole where a loop that looks like a gap becomes a
 /// likely boundary without them; doubtful loops of one width together (see judgeTogether). O(n) plus
 /// twice judgeLoops ().
-/// \param loops   of the mesh, ascending by their smallest points before
-/// \param spacing local spacing of each point
+/// \param loops    of the mesh, ascending by their smallest points before
+/// \param geometry neighbours, normals and spacing of each point of the mesh
 void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
-            const RunContext& run);
+            const LocalGeometry& geometry, const RunContext& run);
 
 } // namespace pcl::floater
