@@ -159,7 +159,7 @@ private:
     Flags is_known (at.place.patches, 0);
     for (std::size_t i = 0; i < at.frame.size (); ++i)
       if (const Index patch = at.place.patch_of[i]; is_known[patch]++ == 0)
-        zone.patches.push_back ({at.frame[i], made.is_turned[patch] != 0});
+        zone.patches.emplace_back (at.frame[i], made.is_turned[patch] != 0);
     return zone;
   }
 
