@@ -21,15 +21,13 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
               const TriangleCost& cost, const Flags& is_remade, const RunContext& run)
 {
   std::vector<BoundaryLoop> pinholes;
-  std::vector<Index> fan;
-  const auto isBeside = [&] (Index p) {
-    mesh.fan (p, fan);
-    return std::any_of (fan.begin (), fan.end (), [&] (Index t) {
-      return anyCorner (mesh.triangles[t], [&] (Index q) { return is_remade[q] != 0; });
-    });
+  const auto isBeside = [&] (std::vector<Index> points) {
+    addRing (mesh, points);
+    return std::any_of (points.begin (), points.end (),
+                        [&] (Index p) { return is_remade[p] != 0; });
   };
   for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
-    if (loop.size () <= SMALL_LOOP && std::any_of (loop.begin (), loop.end (), isBeside)) {
+    if (loop.size () <= SMALL_LOOP && isBeside (loop)) {
       pinholes.emplace_back ();
       pinholes.back ().points = loop;
       measureLoop (pinholes.back (), positions, spacing);
