@@ -17,17 +17,14 @@ using TrianglesOverHoles = std::vector<std::pair<Index, Index>>;
 // other places have no points.
 std::vector<BoundaryLoop>
 widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loops,
-              const TrianglesOverHoles& removed, const std::vector<Index>& loop_of,
-              const Positions& positions, const std::vector<float>& spacing, const RunContext& run)
+              const std::vector<Index>& loop_of, const Positions& positions,
+              const std::vector<float>& spacing, const RunContext& run)
 {
-  Flags is_widened (loops.size (), 0);
-  for (const auto& [triangle, loop] : removed)
-    is_widened[loop] = 1;
   std::vector<BoundaryLoop> found (loops.size ());
   for (std::vector<Index>& points : boundaryLoops (widened, run)) {
     const auto own = std::find_if (points.begin (), points.end (),
                                    [&loop_of] (Index p) { return loop_of[p] != NONE; });
-    if (own == points.end () || is_widened[loop_of[*own]] == 0)
+    if (own == points.end () || points == loops[loop_of[*own]].points)
       continue;
     BoundaryLoop& loop = found[loop_of[*own]] = loops[loop_of[*own]];
     loop.points = std::move (points);
@@ -115,7 +112,7 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Position
   if (!over.empty ()) {
     TriangleMesh widened = mesh;
     removeOver (over, widened, run);
-    wide = widenedLoops (widened, loops, over, loop_of, positions, geometry.spacing, run);
+    wide = widenedLoops (widened, loops, loop_of, positions, geometry.spacing, run);
     judgeLoops (widened, wide, positions, geometry, run);
   }
   std::vector<BoundaryLoop*> best;
