@@ -3,7 +3,6 @@
 #include "mesh/disturbed_zones.h"
 
 #include "core/disjoint_sets.h"
-#include "core/geometry.h"
 #include "core/parallel.h"
 
 #include <map>

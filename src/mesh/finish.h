@@ -3,15 +3,12 @@
 // Final changes of a mesh of any method: missing points, flips, repair, orientation.
 #pragma once
 
-#include "local/local_geometry.h"
 #include "mesh/facing.h"
 #include "mesh/flaw_repair.h"
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
-#include "mesh/triangle_mesh.h"
 #include "mesh/vertex_splits.h"
-#include "points/neighbors.h"
 
 namespace pcl::floater {
 /// The limits of all steps of finishMesh.

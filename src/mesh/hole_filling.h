@@ -3,8 +3,6 @@
 // Fills boundary loops by triangulated polygons.
 #pragma once
 
-#include "core/run_context.h"
-#include "core/types.h"
 #include "mesh/loops.h"
 #include "mesh/triangle_cost.h"
 

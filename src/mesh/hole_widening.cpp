@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/loops.h"
 
-#include "core/geometry.h"
 #include "mesh/open_boundary.h"
 #include "mesh/trimming.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/loops.h"
 
-#include "core/geometry.h"
 #include "local/planar_star.h"
 #include "mesh/hole_filling.h"
 

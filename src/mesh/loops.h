@@ -6,8 +6,6 @@
 #include "local/local_geometry.h"
 #include "mesh/triangle_mesh.h"
 
-#include <pcl/surface/floater/options.h>
-
 namespace pcl::floater {
 /// Judgement of a boundary loop.
 struct LoopJudgement

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/open_boundary.h"
 
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "mesh/folds.h"
 #include "mesh/trimming.h"

@@ -5,7 +5,6 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "local/local_geometry.h"
 #include "mesh/neck_cutting.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"

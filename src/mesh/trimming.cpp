@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/trimming.h"
 
-#include "core/csr_lists.h"
 #include "core/parallel.h"
 #include "mesh/self_intersections.h"
 
