@@ -33,9 +33,8 @@ struct BoundaryLoop
   bool keep_open = false;    ///< it is a boundary of the surface
 };
 
-/// Sets length, width and spacing from the points. The width of a loop of up to 256 points is
-/// exact. For a longer one, at most 256 points at equal steps along the loop are used: the width is
-/// too small by at most two of these steps. O(points).
+/// Sets length, width and spacing from the points. For the width of a loop of more than 256 points, at
+/// most 256 at equal steps along it are used: it is too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
 void
 measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing);
