@@ -38,14 +38,13 @@ chooseLoops (TriangleMesh& mesh, const Points& points, const LocalGeometry& geom
              const HoleOptions& holes, const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
-  const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
+      findBoundaryLoops (mesh, findComponents (mesh, run), positions, geometry.spacing, run);
   if (holes.policy == HolePolicy::AUTO)
     widenHoles (mesh, loops, positions, geometry, run);
   else
     judgeLoops (mesh, loops, positions, geometry, run);
-  chooseOpenLoops (loops, components.count, holes, 1.0 / points.scale);
+  chooseOpenLoops (loops, holes, 1.0 / points.scale);
   return loops;
 }
 

@@ -5,6 +5,8 @@
 #include "local/planar_star.h"
 #include "mesh/hole_filling.h"
 
+#include <set>
+
 namespace pcl::floater {
 namespace {
 constexpr double MOST_TURNING = 1.5; // turns; rough loops on noise have arbitrary values
@@ -332,17 +334,16 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops)
 }
 
 void
-chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
-                 double unit)
+chooseOpenLoops (std::vector<BoundaryLoop>& loops, const HoleOptions& holes, double unit)
 {
-  Flags has_one (components, 0);
+  std::set<Index> have_one; // components
   int kept = 0;
   switch (holes.policy) {
   case HolePolicy::CLOSE_ALL:
     return;
   case HolePolicy::KEEP_LARGEST:
     for (BoundaryLoop* loop : fromLargest (loops, [] (const BoundaryLoop& l) { return l.length; }))
-      loop->keep_open = std::exchange (has_one[loop->component], std::uint8_t{1}) == 0;
+      loop->keep_open = have_one.insert (loop->component).second;
     return;
   case HolePolicy::KEEP_COUNT:
     for (BoundaryLoop* loop :

@@ -103,11 +103,9 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops);
 /// requested number of loops is taken from the most likely boundaries on; the largest loop of each
 /// component is the longest of its likely boundaries. If likely boundaries run out, both use the
 /// length of the loop with no point beyond. O(m log m) for m loops.
-/// \param components number of components of the mesh
-/// \param unit       length of one unit of the cloud in the unit of the positions
+/// \param unit length of one unit of the cloud in the unit of the positions
 void
-chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
-                 double unit);
+chooseOpenLoops (std::vector<BoundaryLoop>& loops, const HoleOptions& holes, double unit);
 
 /// Judges loops, and removes triangles over a hole where a loop that looks like a gap becomes a
 /// likely boundary without them; doubtful loops of one width together (see judgeTogether). O(n) plus

@@ -29,13 +29,12 @@ std::size_t
 closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
             const Viewpoint& viewpoint, const ViewSettings& settings, const RunContext& run)
 {
-  const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (mesh, components, points.positions, spacing, run);
+      findBoundaryLoops (mesh, findComponents (mesh, run), points.positions, spacing, run);
   // No point lies beyond any of them: the longest are kept.
   for (BoundaryLoop& loop : loops)
     loop.judgement.empty_length = loop.length;
-  chooseOpenLoops (loops, components.count, settings.options.holes, 1.0 / points.scale);
+  chooseOpenLoops (loops, settings.options.holes, 1.0 / points.scale);
   Normals normals;
   normals.reserve (points.size ());
   for (const Vector3d& position : points.positions) {

@@ -60,7 +60,7 @@ using Indices = std::vector<std::size_t>;
 Indices
 kept (std::vector<BoundaryLoop> loops, const HoleOptions& holes, double unit = 1.0)
 {
-  chooseOpenLoops (loops, 2, holes, unit);
+  chooseOpenLoops (loops, holes, unit);
   Indices indices;
   for (std::size_t i = 0; i < loops.size (); ++i)
     if (loops[i].keep_open)
