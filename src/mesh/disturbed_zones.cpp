@@ -57,7 +57,13 @@ public:
     for (const std::vector<Index>& loop : loops_)
       for (const Index p : loop)
         zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
-    widen (rings);
+    for (Index p = 0; p < positions_.size (); ++p)
+      if (is_disturbed_[p] != 0)
+        makeFree (p);
+    std::size_t first = 0;
+    for (int ring = 0; ring < rings; ++ring)
+      for (const std::size_t last = free_.size (); first < last; ++first)
+        forEachAround (free_[first], [this] (Index q) { makeFree (q); });
     connect ();
     return std::move (zones_);
   }
@@ -247,17 +253,6 @@ private:
     for (const Index t : fan_)
       for (const Index q : mesh_.triangles[t])
         visit (q);
-  }
-
-  void widen (int rings)
-  {
-    for (Index p = 0; p < positions_.size (); ++p)
-      if (is_disturbed_[p] != 0)
-        makeFree (p);
-    std::size_t first = 0;
-    for (int ring = 0; ring < rings; ++ring)
-      for (const std::size_t last = free_.size (); first < last; ++first)
-        forEachAround (free_[first], [this] (Index q) { makeFree (q); });
   }
 
   // Zones with something wrong in them; the others are not free any more.
