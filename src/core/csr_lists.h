@@ -31,17 +31,21 @@ requireCountable (std::size_t entries, std::size_t most, const char* table, cons
                              " that 32-bit indices can count: " + what);
 }
 
-/// A row of a table.
-struct Row
+/// Consecutive values of an array.
+template <typename Value>
+struct Span
 {
-  const Index* first;
-  const Index* last;
+  const Value* first;
+  const Value* last;
 
-  const Index* begin () const { return first; }
-  const Index* end () const { return last; }
+  const Value* begin () const { return first; }
+  const Value* end () const { return last; }
   std::size_t size () const { return static_cast<std::size_t> (last - first); }
-  Index operator[] (std::size_t i) const { return first[i]; }
+  const Value& operator[] (std::size_t i) const { return first[i]; }
 };
+
+/// A row of a table.
+using Row = Span<Index>;
 
 /// A function that gives the row of a point. The row is valid until the next call.
 using RowOf = std::function<Row (Index)>;
@@ -61,7 +65,7 @@ struct CsrLists
   Row first (std::size_t r, std::size_t count) const
   {
     const Row whole = row (r);
-    return {whole.first, whole.first + (count < whole.size () ? count : whole.size ())};
+    return {whole.first, whole.first + std::min (count, whole.size ())};
   }
 };
 
