@@ -77,6 +77,14 @@ requireListed (std::size_t entries)
                     "use fewer points or fewer neighbours");
 }
 
+/// Turns row lengths into offsets: offsets[r + 1] is the length of row r before the call, and its
+/// end after it. O(rows).
+inline void
+sumRowLengths (std::vector<Index>& offsets)
+{
+  std::partial_sum (offsets.begin (), offsets.end (), offsets.begin ());
+}
+
 /// Makes lists by counting sort, O(rows + entries). `visit` is called twice. Both times it has to
 /// call its argument `emit (row, id)` for each entry, in the same order; each row keeps that order.
 /// \throws IndexLimitReached if there are 2^32 - 1 entries or more
@@ -92,8 +100,7 @@ makeCsrLists (std::size_t rows, Visit&& visit)
     ++entries;
   });
   requireListed (entries);
-  for (std::size_t r = 2; r < lists.offsets.size (); ++r)
-    lists.offsets[r] += lists.offsets[r - 1];
+  sumRowLengths (lists.offsets);
   lists.ids.resize (entries);
   // offsets[row + 1]: where the row's next entry goes; at the end, where the row ends.
   visit ([&] (std::size_t row, Index id) { lists.ids[lists.offsets[row + 1]++] = id; });
@@ -121,15 +128,6 @@ rowsWithin (const CsrLists& lists, const std::vector<Index>& ids)
         if (const Index place = placeIn (ids, id); place != NONE)
           emit (i, place);
   });
-}
-
-/// Turns row lengths into offsets: offsets[r + 1] is the length of row r before the call, and its
-/// end after it. O(rows).
-inline void
-sumRowLengths (std::vector<Index>& offsets)
-{
-  for (std::size_t r = 1; r < offsets.size (); ++r)
-    offsets[r] += offsets[r - 1];
 }
 
 } // namespace pcl::floater
