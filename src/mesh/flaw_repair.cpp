@@ -302,7 +302,7 @@ private:
     change ();
     const long pairs = table_.tryChange (changed_, std::max (most_pairs, 0L) + 1);
     mesh_.undo (mark);
-    table_.reject (changed_);
+    table_.renewBoxes (changed_);
     return pairs <= most_pairs && gain (pairs) > VertexMover::IMPROVES ? gain (pairs) : 0.0;
   }
 

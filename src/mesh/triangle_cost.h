@@ -99,12 +99,17 @@ public:
   /// Valid until the next call.
   const TriangleCost::Value& operator() (Index a, Index b, Index c)
   {
-    // From the smallest corner.
-    if (b < a && b < c)
-      return find (b, c, a);
-    if (c < a && c < b)
-      return find (c, a, b);
-    return find (a, b, c);
+    const Triangle corners = b < a && b < c   ? Triangle{b, c, a}
+                             : c < a && c < b ? Triangle{c, a, b}
+                                              : Triangle{a, b, c};
+    // Multiplicative hashing; the high bits are the best mixed.
+    const std::uint64_t mixed = corners[0] * 0x9E3779B97F4A7C15ULL +
+                                corners[1] * 0xC2B2AE3D27D4EB4FULL +
+                                corners[2] * 0x165667B19E3779F9ULL;
+    Entry& entry = entries_[mixed >> (64 - BITS)];
+    if (entry.corners != corners)
+      entry = {corners, cost_.value (a, b, c)};
+    return entry.value;
   }
   const TriangleCost::Value& operator() (const Triangle& corners)
   {
@@ -117,19 +122,6 @@ private:
     Triangle corners;
     TriangleCost::Value value;
   };
-
-  const TriangleCost::Value& find (Index a, Index b, Index c)
-  {
-    // Multiplicative hashing; the high bits are the best mixed.
-    const std::uint64_t mixed =
-        a * 0x9E3779B97F4A7C15ULL + b * 0xC2B2AE3D27D4EB4FULL + c * 0x165667B19E3779F9ULL;
-    Entry& entry = entries_[mixed >> (64 - BITS)];
-    if (entry.corners[0] != a || entry.corners[1] != b || entry.corners[2] != c) {
-      entry.corners = {a, b, c};
-      entry.value = cost_.value (a, b, c);
-    }
-    return entry.value;
-  }
 
   static constexpr int BITS = 13;
   static constexpr std::size_t ENTRIES = std::size_t{1} << BITS;
