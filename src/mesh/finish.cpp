@@ -41,7 +41,7 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
 // \return whether fewer cross then, and no point is lost; else the mesh stays as it was
 bool
 openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-               const SplitLimits& limits, CrossingPairs& crossing, const RunContext& run)
+               CrossingPairs& crossing, const RunContext& run)
 {
   if (crossing.empty () || !crossing.untested.empty ())
     return false;
@@ -54,7 +54,7 @@ openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& n
   std::vector<Triangle> before = mesh.triangles;
   const auto unused = countUnused ();
   removeTriangles (mesh, std::move (is_chosen), run);
-  addMissingPoints (mesh, positions, neighbors, limits, run);
+  addMissingPoints (mesh, positions, neighbors, run);
   CrossingPairs after = findSelfIntersections (mesh.triangles, positions, run);
   if (after.size () < crossing.size () && after.untested.empty () && countUnused () <= unused) {
     crossing = std::move (after);
@@ -76,7 +76,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
   const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
   run.beginStep (AFTER_POINTS);
   if (settings.add_points)
-    addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
+    addMissingPoints (mesh, positions, geometry.neighbors, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
@@ -99,8 +99,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
                    widest, finish.remade, settings.limits.remaking, run);
       if (finish.remade.points () == 0)
         return;
-      std::size_t changes =
-          addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
+      std::size_t changes = addMissingPoints (mesh, positions, geometry.neighbors, run);
       if (settings.limits.remaking.disturbance.closes_gaps)
         changes +=
             fillPinholes (mesh, positions, geometry.meshSpacing (), cost, finish.remade.is_remade,
@@ -136,8 +135,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
       if (!is_noise && givesUp ())
         return finish;
       while (settings.open_boundary &&
-             openCrossings (mesh, positions, geometry.neighbors, settings.limits.splits,
-                            *finish.crossing, run) &&
+             openCrossings (mesh, positions, geometry.neighbors, *finish.crossing, run) &&
              !is_noise) // in noise, the repair would take as long as before
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
     }

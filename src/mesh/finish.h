@@ -20,7 +20,6 @@ struct FinishLimits
   CostLimits cost;
   RepairLimits repair;
   NotchLimits notches;
-  SplitLimits splits;
   RemakingLimits remaking;
   FacingLimits facing;
 };

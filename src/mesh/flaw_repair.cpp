@@ -60,7 +60,7 @@ public:
               const RunContext& run)
       : mesh_ (mesh), repair_ (repair), ridges_ (ridges), limits_ (limits), run_ (run),
         is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
-        mover_ (mesh, positions, neighbors, cost, limits.largest_fan, limits.places, run),
+        mover_ (mesh, positions, neighbors, cost, run),
         most_tests_ (
             (repair == Repair::AT_THE_END ? 3 : 1) *
             std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),

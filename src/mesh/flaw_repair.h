@@ -12,13 +12,9 @@ namespace pcl::floater {
 /// Costs and limits of the search. Where no measurement is told, they were chosen by hand.
 struct RepairLimits
 {
-  double pair_cost = 1000.0;    ///< of a crossing pair, in the unit of TriangleCost: as much as an
-                                ///< edge that is folded by 180 degrees (CostLimits::fold_cost)
-  std::size_t largest_fan = 24; ///< triangles around a vertex that is moved. 12, 16 and 40 leave
-                                ///< about as many flaws
-  std::size_t places = 8;       ///< neighbours whose fan a vertex to move may split. 4 and 12 leave
-                                ///< about as many flaws
-  std::size_t passes = 6;       ///< over the flawed triangles; the first two do most of the work
+  double pair_cost = 1000.0; ///< of a crossing pair, in the unit of TriangleCost: as much as an
+                             ///< edge that is folded by 180 degrees (CostLimits::fold_cost)
+  std::size_t passes = 6;    ///< over the flawed triangles; the first two do most of the work
 
   /// Patches are rebuilt around a triangle: its corners and those of the triangles that it crosses,
   /// or else of those beside it, then also one ring around. Without this, three of four terrains

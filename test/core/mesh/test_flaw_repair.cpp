@@ -21,7 +21,6 @@ using namespace samples;
 
 constexpr Index GRID_SIDE = 9; // points along a grid
 constexpr Index SHEET_POINTS = GRID_SIDE * GRID_SIDE;
-constexpr std::size_t LARGEST_FAN = RepairLimits{}.largest_fan;
 
 // A jittered square grid with spacing 1.
 Mesh
@@ -99,7 +98,7 @@ TEST (FlawRepair, ChangesAreConsistentAndAreUndoneWithoutATrace)
     p.z () += 0.3 * random.normal ();
   TriangleMesh& mesh = sheets.mesh;
   const TriangleMesh before = mesh;
-  VertexMover mover (mesh, sheets.positions, sheets.neighbors, sheets.cost, LARGEST_FAN, 8, 1);
+  VertexMover mover (mesh, sheets.positions, sheets.neighbors, sheets.cost, 1);
   const auto isChangedAndUndone = [&] {
     expectConsistent (mesh);
     const bool is_changed = mesh.triangles != before.triangles;
@@ -355,9 +354,7 @@ TEST (MissingPoints, AllJoin)
     }
   }
   TriangleMesh mesh = triangulatePlane (uv, loop);
-  const auto add = [&] {
-    return addMissingPoints (mesh, points.positions, geometry.neighbors, {}, 1);
-  };
+  const auto add = [&] { return addMissingPoints (mesh, points.positions, geometry.neighbors, 1); };
   EXPECT_EQ (add (), missing);
   expectDisc (mesh, points.size ());
   EXPECT_EQ (add (), 0U);
