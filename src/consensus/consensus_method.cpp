@@ -164,7 +164,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   run.beginStage (Stage::HOLES);
   std::vector<BoundaryLoop> loops =
       chooseLoops (mesh, points, geometry, settings.holes, limits, run);
-  const TriangleCost cost (positions, geometry.stars.normals, nullptr, limits.finish.cost);
+  const TriangleCost cost (positions, geometry.stars.normals);
   const std::size_t before = mesh.triangles.size ();
   fillHoles (mesh, loops, positions, cost, limits.hole_filling, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);

@@ -73,7 +73,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
   MeshFinish finish;
   Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
-  const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
+  const TriangleCost cost (positions, normals, &geometry.meshSpacing ());
   run.beginStep (AFTER_POINTS);
   if (settings.add_points)
     addMissingPoints (mesh, positions, geometry.neighbors, run);
@@ -151,11 +151,11 @@ repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
   // The triangles have changed; normals may have the wrong sign now.
   Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
-  const Repairs done = repairFlaws (
-      mesh, *finish.crossing, geometry.neighbors,
-      TriangleCost (positions, normals, &geometry.meshSpacing (), limits.cost), positions, kind,
-      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits.repair,
-      run);
+  const Repairs done =
+      repairFlaws (mesh, *finish.crossing, geometry.neighbors,
+                   TriangleCost (positions, normals, &geometry.meshSpacing ()), positions, kind,
+                   findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run),
+                   limits.repair, run);
   finish.repairs += done;
   return done;
 }

@@ -17,7 +17,6 @@ namespace pcl::floater {
 /// The limits of all steps of finishMesh.
 struct FinishLimits
 {
-  CostLimits cost;
   RepairLimits repair;
   NotchLimits notches;
   RemakingLimits remaking;

@@ -32,7 +32,7 @@ public:
   NeckCut (const TriangleMesh& mesh, const std::vector<Index>& loop, const Positions& positions,
            const LocalGeometry& geometry, const NeckLimits& limits, const RunContext& run)
       : mesh_ (mesh), limits_ (limits), run_ (run), points_ (loop),
-        cost_ (positions_, normals_, &spacing_, limits.cost)
+        cost_ (positions_, normals_, &spacing_)
   {
     for (std::size_t ring = 0; ring < RINGS; ++ring)
       addRing (mesh, points_);

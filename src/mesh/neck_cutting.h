@@ -17,7 +17,6 @@ struct NeckLimits
   double cost_left = 0.9; ///< share of the bending along the neck that a cut may leave. Cuts of the
                           ///< false necks of 588 generated clouds left 0.55 to 0.89, those of true
                           ///< ones 1 or more
-  CostLimits cost;        ///< of triangles that fill an opening
   double area_cost = HoleFillingLimits{}.area_cost;
 };
 

@@ -41,7 +41,7 @@ closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& 
     const Vector3d ray = viewpoint.is_far ? viewpoint.place : Vector3d (position - viewpoint.place);
     normals.emplace_back (-ray.normalized ().cast<float> ());
   }
-  const TriangleCost cost (points.positions, normals, nullptr, settings.surface.finish.cost);
+  const TriangleCost cost (points.positions, normals);
   return fillHoles (mesh, loops, points.positions, cost, settings.surface.hole_filling, run);
 }
 
