@@ -140,7 +140,7 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
     }
   }
-  finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
+  finish.facing = faceOutwards (mesh, positions, settings.facing, run);
   return finish;
 }
 

@@ -20,7 +20,6 @@ struct FinishLimits
   RepairLimits repair;
   NotchLimits notches;
   RemakingLimits remaking;
-  FacingLimits facing;
 };
 
 struct FinishSettings

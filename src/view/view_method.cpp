@@ -78,8 +78,8 @@ dropShortSteps (const TriangleMesh& mesh, const Flags& is_gap, std::size_t short
 
 // The front of each component: towards the sensor, unless it is far away.
 MeshFacing
-faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
-            const FinishLimits& finish, FacingHints hints, const RunContext& run)
+faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint, FacingHints hints,
+            const RunContext& run)
 {
   hints.is_one_view = viewpoint.is_far;
   hints.faces_sensor = !viewpoint.is_far;
@@ -89,7 +89,7 @@ faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   else if (hints.wanted != Facing::VIEWPOINT)
     hints.sensor.reset ();
   if (!by_view || viewpoint.is_far || boundaryEdges (mesh).empty ())
-    return faceOutwards (mesh, points.positions, hints, finish.facing, run);
+    return faceOutwards (mesh, points.positions, hints, run);
   MeshFacing facing; // oriented like the view
   FacingObject& all = facing.objects.emplace_back ();
   all.rule = FacingRule::SENSOR;
@@ -166,8 +166,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
     removeSmallComponents (mesh, SMALLEST_PART, run);
   if (settings.options.holes.policy != HolePolicy::AUTO)
     surface.holes_filled = closeHoles (mesh, points, surface.spacing, viewpoint, settings, run);
-  surface.finish.facing =
-      faceInView (mesh, points, viewpoint, settings.surface.finish, std::move (hints), run);
+  surface.finish.facing = faceInView (mesh, points, viewpoint, std::move (hints), run);
   return surface;
 }
 
