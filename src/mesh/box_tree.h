@@ -69,11 +69,12 @@ public:
   /// Calls visit (j) for all boxes j that a ray meets, unsorted, until it returns true. O(log n)
   /// for boxes that hardly overlap.
   /// \param direction not zero, any length
+  /// \return whether it has
   template <typename Visit>
-  void forAlongRay (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
+  bool forAlongRay (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
   {
     const Ray ray (origin, direction);
-    forMet ([&ray] (const Box& box) { return ray.meets (box); }, visit);
+    return forMet ([&ray] (const Box& box) { return ray.meets (box); }, visit);
   }
 
   /// Replaces box i. Nodes around it only grow: many distant changes make searches slower.

@@ -222,40 +222,28 @@ private:
     return *rays_;
   }
 
-  // Whether nothing blocks a ray from a line's triangle. Needs rays ().
-  // \param blocks (t, at): whether a triangle does, at this multiple of the direction
-  template <typename Blocks>
-  bool isFree (const SightLine& line, const Vector3d& direction, Blocks&& blocks) const
-  {
-    bool is_free = true;
-    rays_->forHits (line.middle, direction, [&] (Index t, double at) {
-      is_free = t == line.triangle || !blocks (t, at);
-      return !is_free;
-    });
-    return is_free;
-  }
-
   // Number of free lines of each object on either side.
   struct Free
   {
     std::size_t lines = 0, front = 0, back = 0;
   };
+  // \param blocks (own, other): whether another object, or the same, blocks the lines of an object
   template <typename Blocks>
   std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
   {
     const std::vector<SightLine> lines = linesThrough (objects);
-    rays ();
+    const auto isFree = [&, &all = rays ()] (const SightLine& line, const Vector3d& direction) {
+      return !all.forHits (line.middle, direction, [&, own = objectOf (line.triangle)] (Index t) {
+        return t != line.triangle && blocks (own, objectOf (t));
+      });
+    };
     constexpr std::size_t PER_TASK = 32;
     std::vector<std::array<bool, 2>> are_free (lines.size ()); // towards the front, and the back
     parallelTasks (run_, (lines.size () + PER_TASK - 1) / PER_TASK, [&] (std::size_t task) {
       for (std::size_t i = task * PER_TASK; i < std::min (lines.size (), (task + 1) * PER_TASK);
-           ++i) {
-        const auto is_blocking = [&, own = objectOf (lines[i].triangle)] (Index t, double) {
-          return blocks (own, objectOf (t));
-        };
-        are_free[i] = {isFree (lines[i], lines[i].direction, is_blocking),
-                       isFree (lines[i], -lines[i].direction, is_blocking)};
-      }
+           ++i)
+        are_free[i] = {isFree (lines[i], lines[i].direction),
+                       isFree (lines[i], -lines[i].direction)};
     });
     std::vector<Free> free (judged_.size ());
     for (std::size_t i = 0; i < lines.size (); ++i) {
@@ -361,7 +349,7 @@ private:
       std::size_t odd = 0;
       for (const SightLine& line : lines) {
         std::size_t crossed = 0;
-        rays ().forHits (line.middle, line.direction, [&] (Index t, double) {
+        rays ().forHits (line.middle, line.direction, [&] (Index t) {
           crossed += objectOf (t) == other ? 1 : 0;
           return false;
         });

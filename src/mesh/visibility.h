@@ -25,24 +25,23 @@ public:
   {
   }
 
-  /// Calls visit (t, at) for each triangle t that a ray meets beyond its origin, at origin + at *
-  /// direction, unsorted, until it returns true. A ray through an edge or a corner meets at least
-  /// one of the triangles around, and none that it is parallel to.
+  /// Calls visit (t) for each triangle t that a ray meets beyond its origin, unsorted, until it
+  /// returns true. A ray through an edge or a corner meets at least one of the triangles around, and
+  /// none that it is parallel to.
   /// \param direction not zero, any length
+  /// \return whether it has
   template <typename Visit>
-  void forHits (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
+  bool forHits (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
   {
-    tree_.forAlongRay (origin, direction, [&] (std::size_t i) {
-      const double at = hit (order_[i], origin, direction);
-      return at > 0.0 && visit (order_[i], at);
+    return tree_.forAlongRay (origin, direction, [&] (std::size_t i) {
+      return isHit (order_[i], origin, direction) && visit (order_[i]);
     });
   }
 
 private:
-  // Parameter of the intersection along the ray; 0 if there is none. The ray hits if the volumes of
-  // the tetrahedra of ray and edges have one sign. Both triangles of an edge compute exactly opposite
-  // volumes, so no ray slips between them.
-  double hit (Index t, const Vector3d& origin, const Vector3d& direction) const
+  // The ray hits if the volumes of the tetrahedra of ray and edges have one sign. Both triangles of an
+  // edge compute exactly opposite volumes, so no ray slips between them.
+  bool isHit (Index t, const Vector3d& origin, const Vector3d& direction) const
   {
     const Vector3d a = positions_[triangles_[t][0]] - origin;
     const Vector3d b = positions_[triangles_[t][1]] - origin;
@@ -52,10 +51,10 @@ private:
     const double ca = direction.dot (c.cross (a));
     const bool is_front = ab >= 0.0 && bc >= 0.0 && ca >= 0.0;
     if (!is_front && !(ab <= 0.0 && bc <= 0.0 && ca <= 0.0))
-      return 0.0;
+      return false;
     const Vector3d normal = areaVector (a, b, c);
     const double slope = direction.dot (normal);
-    return slope != 0.0 ? std::max (0.0, a.dot (normal) / slope) : 0.0;
+    return slope != 0.0 && a.dot (normal) / slope > 0.0;
   }
 
   const std::vector<Triangle>& triangles_;
