@@ -18,7 +18,7 @@ inOrder (TriangleMesh mesh, const RunContext& run)
 {
   for (Triangle& t : mesh.triangles)
     std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
-  sortInParallel (mesh.triangles, std::less<> (), run);
+  sortInParallel (mesh.triangles.begin (), mesh.triangles.end (), std::less<> (), run);
   mesh.connect (mesh.triangle_of.size (), run);
   return mesh;
 }
