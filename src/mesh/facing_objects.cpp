@@ -209,9 +209,15 @@ findTogether (const TriangleMesh& mesh, const Positions& positions,
   return all;
 }
 
-SignedSets
-join (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums)
+} // namespace
+
+FacingObjects
+findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
+             const FacingHints& hints, const RunContext& run)
 {
+  const std::vector<FacingSums> sums = sumComponents (mesh, positions, components, hints, run);
+  std::vector<Continuation> continuations =
+      findTogether (mesh, positions, components, sums, hints, run);
   SignedSets sets (sums.size ());
   std::stable_sort (
       continuations.begin (), continuations.end (),
@@ -231,17 +237,6 @@ join (std::vector<Continuation> continuations, const std::vector<FacingSums>& su
     if (told[root] == 0)
       told[root] = sign * told[other];
   }
-  return sets;
-}
-
-} // namespace
-
-FacingObjects
-findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
-             const FacingHints& hints, const RunContext& run)
-{
-  const std::vector<FacingSums> sums = sumComponents (mesh, positions, components, hints, run);
-  SignedSets sets = join (findTogether (mesh, positions, components, sums, hints, run), sums);
   FacingObjects objects;
   std::vector<Index> of_root (sums.size (), NONE);
   for (Index c = 0; c < sums.size (); ++c) {
