@@ -51,7 +51,7 @@ private:
   double fillCost (Index p, Index q, Index r) const
   {
     const double double_area = areaVector (positions_[p], positions_[q], positions_[r]).norm ();
-    return cost_ (p, q, r) + area_cost_ * double_area;
+    return cost_ (p, q, r).cost + area_cost_ * double_area;
   }
 
   // Repeatedly cuts off the ear of least cost until the polygon is small enough. Returns false if

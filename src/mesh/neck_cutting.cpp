@@ -172,7 +172,7 @@ private:
     return PolygonFilling (run_).fill (
         opening,
         [&] (Index p, Index q, Index r) {
-          return cost_ (p, q, r) +
+          return cost_ (p, q, r).cost +
                  limits_.area_cost / (step * step) *
                      areaVector (positions_[p], positions_[q], positions_[r]).norm ();
         },

@@ -6,7 +6,7 @@
 
 namespace pcl::floater {
 TriangleCost::Value
-TriangleCost::value (Index a, Index b, Index c) const
+TriangleCost::operator() (Index a, Index b, Index c) const
 {
   constexpr double LEAST_AREA = 1e-9; // doubled, over the sum of the squared edges: keeps the costs
                                       // of needles finite and comparable
@@ -21,9 +21,9 @@ TriangleCost::value (Index a, Index b, Index c) const
   // Starts with the smallest point, so that rounding does not depend on the order of the corners:
   // otherwise flips could cycle.
   if (b < a && b < c)
-    return value (b, c, a);
+    return (*this) (b, c, a);
   if (c < a && c < b)
-    return value (c, a, b);
+    return (*this) (c, a, b);
   const Vector3d ab = positions_[b] - positions_[a];
   const Vector3d ac = positions_[c] - positions_[a];
   const Vector3d bc = positions_[c] - positions_[b];

@@ -42,13 +42,7 @@ public:
   };
 
   /// Exactly the same for each choice of the first corner.
-  Value value (Index a, Index b, Index c) const;
-
-  double operator() (Index a, Index b, Index c) const { return value (a, b, c).cost; }
-  double operator() (const Triangle& corners) const
-  {
-    return (*this) (corners[0], corners[1], corners[2]);
-  }
+  Value operator() (Index a, Index b, Index c) const;
 
   /// True if a triangle is turned (see TURNED_COSINE).
   bool isTurned (const Triangle& corners) const;
@@ -83,15 +77,17 @@ class CachedCost
 {
 public:
   explicit CachedCost (const TriangleCost& cost)
-      : cost_ (cost), entries_ (ENTRIES, Entry{{NONE, NONE, NONE}, {Vector3d::Zero (), 0.0}})
+      : cost_ (cost),
+        entries_ (std::size_t{1} << BITS, Entry{{NONE, NONE, NONE}, {Vector3d::Zero (), 0.0}})
   {
   }
 
   const TriangleCost& plain () const { return cost_; }
 
   /// Valid until the next call.
-  const TriangleCost::Value& operator() (Index a, Index b, Index c)
+  const TriangleCost::Value& operator() (const Triangle& triangle)
   {
+    const auto [a, b, c] = triangle;
     const Triangle corners = b < a && b < c   ? Triangle{b, c, a}
                              : c < a && c < b ? Triangle{c, a, b}
                                               : Triangle{a, b, c};
@@ -101,12 +97,8 @@ public:
                                 corners[2] * 0x165667B19E3779F9ULL;
     Entry& entry = entries_[mixed >> (64 - BITS)];
     if (entry.corners != corners)
-      entry = {corners, cost_.value (a, b, c)};
+      entry = {corners, cost_ (a, b, c)};
     return entry.value;
-  }
-  const TriangleCost::Value& operator() (const Triangle& corners)
-  {
-    return (*this) (corners[0], corners[1], corners[2]);
   }
 
 private:
@@ -117,7 +109,6 @@ private:
   };
 
   static constexpr int BITS = 13;
-  static constexpr std::size_t ENTRIES = std::size_t{1} << BITS;
 
   const TriangleCost& cost_;
   std::vector<Entry> entries_;

@@ -65,12 +65,12 @@ struct Sheets : TwoSheets
   double costOfMesh () const
   {
     const auto normalOf = [this] (const Triangle& t) {
-      return cost.value (t[0], t[1], t[2]).unit_normal;
+      return cost (t[0], t[1], t[2]).unit_normal;
     };
     double sum = 0.0;
     for (Index t = 0; t < mesh.triangles.size (); ++t) {
       const Triangle& corners = mesh.triangles[t];
-      sum += cost (corners[0], corners[1], corners[2]);
+      sum += cost (corners[0], corners[1], corners[2]).cost;
       for (Index u : mesh.neighbors[t])
         if (u != NONE && t < u)
           sum += cost.ofEdge (normalOf (corners), normalOf (mesh.triangles[u]));
