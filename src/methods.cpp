@@ -73,7 +73,7 @@ addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry, M
     if (mesh.triangle_of[of[i]] != NONE)
       added.push_back (static_cast<Index> (points.size () + i));
   Points all = withStacked (points);
-  splitVertices (mesh, all.positions, added, request.limits.surface.finish.splits, request.run);
+  splitVertices (mesh, all.positions, added, request.run);
   return all;
 }
 

@@ -151,7 +151,6 @@ Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
              const RunContext& run)
 {
-  const SurfaceLimits& limits = settings.limits;
   const Positions& positions = points.workingPositions ();
   Surface surface;
   TriangleMesh& mesh = surface.mesh;
@@ -160,7 +159,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
 
   run.beginStage (Stage::HOLES);
   std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, settings.holes, run);
-  const TriangleCost cost (positions, geometry.stars.normals, nullptr, limits.finish.cost);
+  const TriangleCost cost (positions, geometry.stars.normals);
   const std::size_t before = mesh.triangles.size ();
   fillHoles (mesh, loops, positions, cost, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);

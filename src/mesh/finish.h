@@ -14,10 +14,7 @@ namespace pcl::floater {
 /// The limits of all steps of finishMesh.
 struct FinishLimits
 {
-  CostLimits cost;
   RepairLimits repair;
-  SplitLimits splits;
-  FacingLimits facing;
 };
 
 struct FinishSettings

@@ -78,7 +78,7 @@ public:
       TriangleMesh after;
       if (!takeOut (sides, after.triangles) || !after.connect (points_.size (), run_, &is_rim_))
         continue;
-      addMissingPoints (after, positions_, neighbors_, {}, run_);
+      addMissingPoints (after, positions_, neighbors_, run_);
       if (std::count (after.triangle_of.begin (), after.triangle_of.end (), NONE) > 0 ||
           rimEdges (after) != rim)
         continue;

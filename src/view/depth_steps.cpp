@@ -212,7 +212,7 @@ private:
     const auto isNearer = [] (const StepEdge& a, const StepEdge& b) {
       return a.depth != b.depth ? a.depth < b.depth : numberOf (a.edge) < numberOf (b.edge);
     };
-    sortInParallel (edges_, isNearer, run_);
+    sortInParallel (edges_.begin (), edges_.end (), isNearer, run_);
   }
 
   // Change of the inverse depth for a relative change of depth.

@@ -51,7 +51,7 @@ public:
       for (const Index t : tested)
         is_tested[t] = 0;
       std::vector<Flip> found = ranges.join ();
-      sortInParallel (found, std::less<> (), run_);
+      sortInParallel (found.begin (), found.end (), std::less<> (), run_);
       std::vector<Index> changed;
       for (const Flip& one : found)
         flip (one.edge, changed);
