@@ -91,8 +91,8 @@ repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeomet
       (finish.crossing->empty () && findFolds (mesh, all.positions, request.run).empty ()))
     return;
   extendNeighbors (geometry.neighbors, points.stacked.of);
-  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.surface.finish,
-              finish, request.run);
+  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.repair, finish,
+              request.run);
   geometry.neighbors = {};
 }
 
@@ -202,7 +202,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   }
   SurfaceSettings settings;
   settings.holes.policy = HolePolicy::KEEP_LARGEST;
-  settings.limits = request.limits.surface;
+  settings.limits = request.limits.repair;
   Boundary boundary;
   double longest = 0.0;
   for (std::vector<Index>& loop :
@@ -307,10 +307,10 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                   : options.topology == Topology::DISC
                                       ? "asked for"
                                       : "its boundary loop is given";
-  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
-                        {options, starSettings (request), request.limits.surface.finish,
-                         facingHints (points, request)},
-                        request.run);
+  Disc disc = makeDisc (
+      points, geometry, findLoop (points, geometry, request),
+      {options, starSettings (request), request.limits.repair, facingHints (points, request)},
+      request.run);
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
@@ -324,7 +324,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
 {
   const Options& options = request.options;
   const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
-                                 request.limits.surface, facingHints (points, request)};
+                                 request.limits.repair, facingHints (points, request)};
   Surface surface = makeSurface (points, geometry, settings, request.run);
   result.report.topology = Topology::SURFACE;
   reportLoops (points, surface, result.report);
@@ -347,9 +347,8 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   // tells one, have 0.013 to 0.035.
   constexpr double UNUSED_IF_TOLD = 0.01;
   const Options& options = request.options;
-  ViewSurface surface =
-      makeViewSurface (points, viewpoint, {options, request.limits.view, request.limits.surface},
-                       facingHints (points, request), request.run);
+  ViewSurface surface = makeViewSurface (points, viewpoint, {options, request.limits.view},
+                                         facingHints (points, request), request.run);
   LocalGeometry geometry;
   geometry.spacing = std::move (surface.spacing);
   MeshExamination found = examine (surface.mesh, points, geometry, request);

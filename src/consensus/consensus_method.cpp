@@ -104,7 +104,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
   finish.repair = finish.remake_sheets = settings.repair;
   finish.are_points_added = !points.stacked.of.empty ();
   finish.facing = settings.facing;
-  finish.limits = settings.limits.finish;
+  finish.limits = settings.limits;
   const HolePolicy policy = settings.holes.policy;
   finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
   TriangleMesh other;

@@ -142,16 +142,15 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
 
 Repairs
 repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry, Repair kind,
-            const FinishLimits& limits, MeshFinish& finish, const RunContext& run)
+            const RepairLimits& limits, MeshFinish& finish, const RunContext& run)
 {
   // The triangles have changed; normals may have the wrong sign now.
   Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
-  const Repairs done =
-      repairFlaws (mesh, *finish.crossing, geometry.neighbors,
-                   TriangleCost (positions, normals, &geometry.meshSpacing ()), positions, kind,
-                   findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run),
-                   limits.repair, run);
+  const Repairs done = repairFlaws (
+      mesh, *finish.crossing, geometry.neighbors,
+      TriangleCost (positions, normals, &geometry.meshSpacing ()), positions, kind,
+      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits, run);
   finish.repairs += done;
   return done;
 }

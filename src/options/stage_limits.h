@@ -19,7 +19,7 @@ struct Limits
   OutlierLimits outliers;
   PlaneLimits planes;
   SheetLimits sheets;
-  SurfaceLimits surface;
+  RepairLimits repair;
   ViewLimits view;
   CheckLimits check;
 };
