@@ -55,7 +55,7 @@ addStacked (TriangleMesh& mesh, const Points& points, LocalGeometry& geometry, M
     if (mesh.triangle_of[of[i]] != NONE)
       added.push_back (static_cast<Index> (points.size () + i));
   Points all = withStacked (points);
-  splitVertices (mesh, all.positions, added, request.limits.surface.finish.splits, request.run);
+  splitVertices (mesh, all.positions, added, request.run);
   return all;
 }
 
@@ -85,8 +85,8 @@ repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeomet
       neighbors.ids.push_back (q);
     neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
   }
-  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.surface.finish,
-              finish, request.run);
+  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.repair, finish,
+              request.run);
   neighbors = {};
 }
 
@@ -196,7 +196,7 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
   }
   SurfaceSettings settings;
   settings.holes.policy = HolePolicy::KEEP_LARGEST;
-  settings.limits = request.limits.surface;
+  settings.limits = request.limits.repair;
   Boundary boundary;
   double longest = 0.0;
   for (std::vector<Index>& loop :
@@ -275,10 +275,10 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                   : options.topology == Topology::DISC
                                       ? "asked for"
                                       : "its boundary loop is given";
-  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request),
-                        {options, starSettings (options), request.limits.surface.finish,
-                         facingHints (points, request)},
-                        request.run);
+  Disc disc = makeDisc (
+      points, geometry, findLoop (points, geometry, request),
+      {options, starSettings (options), request.limits.repair, facingHints (points, request)},
+      request.run);
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
@@ -292,7 +292,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
 {
   const Options& options = request.options;
   const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
-                                 request.limits.surface, facingHints (points, request)};
+                                 request.limits.repair, facingHints (points, request)};
   Surface surface = makeSurface (points, geometry, settings, request.run);
   result.report.topology = Topology::SURFACE;
   reportLoops (points, surface, result.report);
@@ -315,9 +315,8 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   // tells one, have 0.013 to 0.035.
   constexpr double UNUSED_IF_TOLD = 0.01;
   const Options& options = request.options;
-  ViewSurface surface =
-      makeViewSurface (points, viewpoint, {options, request.limits.view, request.limits.surface},
-                       facingHints (points, request), request.run);
+  ViewSurface surface = makeViewSurface (points, viewpoint, {options, request.limits.view},
+                                         facingHints (points, request), request.run);
   LocalGeometry geometry;
   geometry.spacing = std::move (surface.spacing);
   MeshExamination found = examine (surface.mesh, points, geometry, request);

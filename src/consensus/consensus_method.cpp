@@ -43,15 +43,13 @@ chooseLoops (TriangleMesh& mesh, const Points& points, const LocalGeometry& geom
              const HoleOptions& holes, const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
-  const Normals& normals = geometry.stars.normals;
-  const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (mesh, components, positions, geometry.spacing, run);
+      findBoundaryLoops (mesh, findComponents (mesh, run), positions, geometry.spacing, run);
   if (holes.policy == HolePolicy::AUTO)
-    widenHoles (mesh, loops, positions, geometry.spacing, geometry.neighbors, normals, run);
+    widenHoles (mesh, loops, positions, geometry, run);
   else
-    judgeLoops (mesh, loops, positions, geometry.neighbors, normals, run);
-  chooseOpenLoops (loops, components.count, holes, 1.0 / points.scale);
+    judgeLoops (mesh, loops, positions, geometry, run);
+  chooseOpenLoops (loops, holes, 1.0 / points.scale);
   return loops;
 }
 
@@ -111,7 +109,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
   finish.repair = finish.remake_sheets = settings.repair;
   finish.are_points_added = !points.stacked.of.empty ();
   finish.facing = settings.facing;
-  finish.limits = settings.limits.finish;
+  finish.limits = settings.limits;
   const HolePolicy policy = settings.holes.policy;
   finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
   TriangleMesh other;
@@ -158,7 +156,6 @@ Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
              const RunContext& run)
 {
-  const SurfaceLimits& limits = settings.limits;
   const Positions& positions = points.workingPositions ();
   Surface surface;
   TriangleMesh& mesh = surface.mesh;
@@ -167,7 +164,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
 
   run.beginStage (Stage::HOLES);
   std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, settings.holes, run);
-  const TriangleCost cost (positions, geometry.stars.normals, nullptr, limits.finish.cost);
+  const TriangleCost cost (positions, geometry.stars.normals);
   const std::size_t before = mesh.triangles.size ();
   fillHoles (mesh, loops, positions, cost, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);

@@ -10,18 +10,12 @@
 #include "points/points.h"
 
 namespace pcl::floater {
-/// The limits of all steps of makeSurface.
-struct SurfaceLimits
-{
-  FinishLimits finish;
-};
-
 struct SurfaceSettings
 {
   HoleOptions holes = {};
   bool flip_edges = true;
   bool repair = false; ///< repair flaws, and make zones anew where several sheets are near
-  SurfaceLimits limits = {};
+  RepairLimits limits = {};
   FacingHints facing = {};
 };
 

@@ -31,17 +31,21 @@ requireCountable (std::size_t entries, std::size_t most, const char* table, cons
                              " that 32-bit indices can count: " + what);
 }
 
-/// A row of a table.
-struct Row
+/// Consecutive values of an array.
+template <typename Value>
+struct Span
 {
-  const Index* first;
-  const Index* last;
+  const Value* first;
+  const Value* last;
 
-  const Index* begin () const { return first; }
-  const Index* end () const { return last; }
+  const Value* begin () const { return first; }
+  const Value* end () const { return last; }
   std::size_t size () const { return static_cast<std::size_t> (last - first); }
-  Index operator[] (std::size_t i) const { return first[i]; }
+  const Value& operator[] (std::size_t i) const { return first[i]; }
 };
+
+/// A row of a table.
+using Row = Span<Index>;
 
 /// A function that gives the row of a point. The row is valid until the next call.
 using RowOf = std::function<Row (Index)>;
@@ -61,7 +65,7 @@ struct CsrLists
   Row first (std::size_t r, std::size_t count) const
   {
     const Row whole = row (r);
-    return {whole.first, whole.first + (count < whole.size () ? count : whole.size ())};
+    return {whole.first, whole.first + std::min (count, whole.size ())};
   }
 };
 
@@ -71,6 +75,14 @@ requireListed (std::size_t entries)
 {
   requireCountable (entries, NONE - 1, "a table of points, neighbours or triangles",
                     "use fewer points or fewer neighbours");
+}
+
+/// Turns row lengths into offsets: offsets[r + 1] is the length of row r before the call, and its
+/// end after it. O(rows).
+inline void
+sumRowLengths (std::vector<Index>& offsets)
+{
+  std::partial_sum (offsets.begin (), offsets.end (), offsets.begin ());
 }
 
 /// Makes lists by counting sort, O(rows + entries). `visit` is called twice. Both times it has to
@@ -88,8 +100,7 @@ makeCsrLists (std::size_t rows, Visit&& visit)
     ++entries;
   });
   requireListed (entries);
-  for (std::size_t r = 2; r < lists.offsets.size (); ++r)
-    lists.offsets[r] += lists.offsets[r - 1];
+  sumRowLengths (lists.offsets);
   lists.ids.resize (entries);
   // offsets[row + 1]: where the row's next entry goes; at the end, where the row ends.
   visit ([&] (std::size_t row, Index id) { lists.ids[lists.offsets[row + 1]++] = id; });
@@ -117,15 +128,6 @@ rowsWithin (const CsrLists& lists, const std::vector<Index>& ids)
         if (const Index place = placeIn (ids, id); place != NONE)
           emit (i, place);
   });
-}
-
-/// Turns row lengths into offsets: offsets[r + 1] is the length of row r before the call, and its
-/// end after it. O(rows).
-inline void
-sumRowLengths (std::vector<Index>& offsets)
-{
-  for (std::size_t r = 1; r < offsets.size (); ++r)
-    offsets[r] += offsets[r - 1];
 }
 
 } // namespace pcl::floater

@@ -76,23 +76,14 @@ public:
 
   Place find (Index element)
   {
-    Index root = element;
     bool flipped = false;
-    while (parent_[root] != root) {
-      flipped = flipped != (flipped_[root] != 0);
-      root = parent_[root];
+    for (; parent_[element] != element; element = parent_[element]) {
+      // Halves the path; the representative itself is not flipped.
+      flipped_[element] ^= flipped_[parent_[element]];
+      parent_[element] = parent_[parent_[element]];
+      flipped = flipped != (flipped_[element] != 0);
     }
-    // Path compression: all elements on the path become children of the root.
-    bool sign = flipped;
-    for (Index at = element; at != root;) {
-      const Index up = parent_[at];
-      const bool next = sign != (flipped_[at] != 0);
-      parent_[at] = root;
-      flipped_[at] = sign ? 1 : 0;
-      sign = next;
-      at = up;
-    }
-    return {root, flipped};
+    return {element, flipped};
   }
 
   /// Joins the sets of a and b so that their signs are equal, or opposite.

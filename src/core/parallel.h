@@ -84,9 +84,9 @@ parallelTasks (const RunContext& run, std::size_t count, Body&& body)
 
 /// Sorts values that all differ: halves on the threads of the run, which are merged. Polls for
 /// cancellation. O(n log n).
-template <typename Value, typename IsLess>
+template <typename Iterator, typename IsLess>
 void
-sortInParallel (Value* first, Value* last, const IsLess& isLess, const RunContext& run)
+sortInParallel (Iterator first, Iterator last, const IsLess& isLess, const RunContext& run)
 {
   constexpr std::ptrdiff_t SORTED_AT_ONCE = 16384;
   if (last - first <= SORTED_AT_ONCE) {
@@ -94,7 +94,7 @@ sortInParallel (Value* first, Value* last, const IsLess& isLess, const RunContex
     std::sort (first, last, isLess);
     return;
   }
-  Value* const middle = first + (last - first) / 2;
+  const Iterator middle = first + (last - first) / 2;
   const int others = run.threads () / 2;
   const RunContext share = run.withThreads (std::max (1, run.threads () - others));
   parallelTasks (others > 0 ? run.withThreads (2) : run, 2, [&] (std::size_t half) {
@@ -102,12 +102,6 @@ sortInParallel (Value* first, Value* last, const IsLess& isLess, const RunContex
                     half == 0 ? share : run.withThreads (std::max (1, others)));
   });
   std::inplace_merge (first, middle, last, isLess);
-}
-template <typename Value, typename IsLess>
-void
-sortInParallel (std::vector<Value>& values, const IsLess& isLess, const RunContext& run)
-{
-  sortInParallel (values.data (), values.data () + values.size (), isLess, run);
 }
 
 /// Length of the ranges of parallelRanges; the last may be shorter. Range r begins at

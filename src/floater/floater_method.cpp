@@ -220,7 +220,7 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   FinishSettings finish;
   finish.flip_edges = settings.options.flip_edges;
   finish.largest_fold_share = LARGEST_FOLD_SHARE;
-  finish.limits = settings.finish;
+  finish.limits = settings.limits;
   finish.facing = settings.facing;
   finish.add_points = !options.as_published;
   finish.repair = finish.flip_edges && settings.options.remove_self_intersections;

@@ -40,7 +40,7 @@ struct DiscSettings
 {
   const Options& options; ///< with as_published: nothing beyond TW 385
   StarSettings stars;     ///< for new stars
-  FinishLimits finish{};
+  RepairLimits limits{};
   FacingHints facing{};
 };
 

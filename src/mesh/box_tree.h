@@ -12,7 +12,7 @@ namespace pcl::floater {
 class BoxTree
 {
 public:
-  static constexpr std::size_t LEAF_SIZE = 8, FAN = 4;
+  static constexpr std::size_t LEAF_SIZE = 8, LOG_FAN = 2, FAN = std::size_t{1} << LOG_FAN;
 
   /// \param box_of (i): box of type Eigen::AlignedBox3d
   template <typename BoxOf>
@@ -49,10 +49,10 @@ public:
       near.push_back (other);
       return false;
     };
-    forNodes ([&around] (const Box& node) { return around.overlaps (node); }, add, first);
+    forNodes ([&around] (const Box& node) { return overlap (around, node); }, add, first);
     for (std::size_t leaf = first; leaf < last; ++leaf)
       for (const std::size_t other : near)
-        if (other >= leaf && levels_.front ()[leaf].overlaps (levels_.front ()[other]))
+        if (other >= leaf && overlap (levels_.front ()[leaf], levels_.front ()[other]))
           compare (leaf, other, visit);
   }
 
@@ -63,17 +63,18 @@ public:
   bool forOverlaps (const Eigen::AlignedBox3d& exact, Visit&& visit) const
   {
     const Box box = roundOutwards (exact);
-    return forMet ([&box] (const Box& other) { return box.overlaps (other); }, visit);
+    return forMet ([&box] (const Box& other) { return overlap (box, other); }, visit);
   }
 
   /// Calls visit (j) for all boxes j that a ray meets, unsorted, until it returns true. O(log n)
   /// for boxes that hardly overlap.
   /// \param direction not zero, any length
+  /// \return whether it has
   template <typename Visit>
-  void forAlongRay (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
+  bool forAlongRay (const Vector3d& origin, const Vector3d& direction, Visit&& visit) const
   {
     const Ray ray (origin, direction);
-    forMet ([&ray] (const Box& box) { return ray.meets (box); }, visit);
+    return forMet ([&ray] (const Box& box) { return ray.meets (box); }, visit);
   }
 
   /// Replaces box i. Nodes around it only grow: many distant changes make searches slower.
@@ -88,28 +89,17 @@ public:
   }
 
 private:
-  static constexpr float FAR = std::numeric_limits<float>::infinity ();
+  using Box = Eigen::AlignedBox3f;
 
-  struct Box
+  // Without branches: which comparison decides is unpredictable.
+  static bool overlap (const Box& a, const Box& b)
   {
-    std::array<float, 3> low{FAR, FAR, FAR}, high{-FAR, -FAR, -FAR}; // an empty one
-
-    void extend (const Box& box)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min (low[axis], box.low[axis]);
-        high[axis] = std::max (high[axis], box.high[axis]);
-      }
-    }
-
-    // Without branches: which comparison decides is unpredictable.
-    bool overlaps (const Box& b) const
-    {
-      return (static_cast<int> (low[0] <= b.high[0]) & static_cast<int> (b.low[0] <= high[0]) &
-              static_cast<int> (low[1] <= b.high[1]) & static_cast<int> (b.low[1] <= high[1]) &
-              static_cast<int> (low[2] <= b.high[2]) & static_cast<int> (b.low[2] <= high[2])) != 0;
-    }
-  };
+    const Vector3f &low_a = a.min (), &low_b = b.min (), &high_a = a.max (), &high_b = b.max ();
+    return (static_cast<int> (low_a[0] <= high_b[0]) & static_cast<int> (low_b[0] <= high_a[0]) &
+            static_cast<int> (low_a[1] <= high_b[1]) & static_cast<int> (low_b[1] <= high_a[1]) &
+            static_cast<int> (low_a[2] <= high_b[2]) & static_cast<int> (low_b[2] <= high_a[2])) !=
+           0;
+  }
 
   // A ray, and which planes of a box it meets first.
   struct Ray
@@ -126,13 +116,12 @@ private:
     bool meets (const Box& box) const
     {
       double begin = 0.0, end = std::numeric_limits<double>::infinity ();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<Eigen::Index> (axis);
-        const bool ascends = inverse[a] > 0.0;
-        const double first = static_cast<double> (ascends ? box.low[axis] : box.high[axis]);
-        const double last = static_cast<double> (ascends ? box.high[axis] : box.low[axis]);
-        begin = std::max (begin, (first - origin[a]) * inverse[a]);
-        end = std::min (end, (last - origin[a]) * inverse[a]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool ascends = inverse[axis] > 0.0;
+        const auto first = static_cast<double> ((ascends ? box.min () : box.max ())[axis]);
+        const auto last = static_cast<double> ((ascends ? box.max () : box.min ())[axis]);
+        begin = std::max (begin, (first - origin[axis]) * inverse[axis]);
+        end = std::min (end, (last - origin[axis]) * inverse[axis]);
       }
       return begin <= end;
     }
@@ -145,9 +134,9 @@ private:
   void compare (std::size_t leaf, std::size_t other, Visit&& visit) const
   {
     for (std::size_t i = leaf * LEAF_SIZE; i < endOf (leaf); ++i)
-      if (boxes_[i].overlaps (levels_.front ()[other]))
+      if (overlap (boxes_[i], levels_.front ()[other]))
         for (std::size_t k = other == leaf ? i + 1 : other * LEAF_SIZE; k < endOf (other); ++k)
-          if (boxes_[i].overlaps (boxes_[k]))
+          if (overlap (boxes_[i], boxes_[k]))
             visit (i, k);
   }
 
@@ -203,22 +192,17 @@ private:
 
   static Box roundOutwards (const Eigen::AlignedBox3d& exact)
   {
-    Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double low = exact.min ()[static_cast<Eigen::Index> (axis)];
-      const double high = exact.max ()[static_cast<Eigen::Index> (axis)];
-      box.low[axis] = static_cast<float> (low);
-      if (static_cast<double> (box.low[axis]) > low)
-        box.low[axis] = std::nextafter (box.low[axis], -FAR);
-      box.high[axis] = static_cast<float> (high);
-      if (static_cast<double> (box.high[axis]) < high)
-        box.high[axis] = std::nextafter (box.high[axis], FAR);
+    constexpr float FAR = std::numeric_limits<float>::infinity ();
+    Box box = exact.cast<float> ();
+    for (int axis = 0; axis < 3; ++axis) {
+      float &low = box.min ()[axis], &high = box.max ()[axis];
+      if (static_cast<double> (low) > exact.min ()[axis])
+        low = std::nextafter (low, -FAR);
+      if (static_cast<double> (high) < exact.max ()[axis])
+        high = std::nextafter (high, FAR);
     }
     return box;
   }
-
-  static constexpr unsigned LOG_FAN = 2;
-  static_assert (std::size_t{1} << LOG_FAN == FAN, "the logarithm of the fan");
 
   std::vector<Box> boxes_;
   std::vector<std::vector<Box>> levels_; // boxes of the leaves, then of the nodes above

@@ -72,9 +72,16 @@ public:
     return pairs;
   }
 
+  /// Call it after a change was undone in the mesh.
+  void renewBoxes (const std::vector<Index>& changed)
+  {
+    for (const Index t : changed)
+      tree_.set (place_[t], boxOf (mesh_.triangles[t], positions_));
+  }
+
   /// Number of pairs added by a change, minus those removed. Exact below `limit`; otherwise any
   /// number from `limit` on.
-  /// \param changed triangles, ascending; followed by reject
+  /// \param changed triangles, ascending; followed by renewBoxes
   long tryChange (const std::vector<Index>& changed, long limit)
   {
     renewBoxes (changed);
@@ -114,21 +121,12 @@ public:
       });
   }
 
-  /// Call it after the last change was undone in the mesh.
-  void reject (const std::vector<Index>& changed) { renewBoxes (changed); }
-
 private:
   // A pair of two changed triangles is counted at the smaller one.
   // \param changed ascending
   static bool isCountedAt (Index t, Index u, const std::vector<Index>& changed)
   {
     return t < u || !std::binary_search (changed.begin (), changed.end (), u);
-  }
-
-  void renewBoxes (const std::vector<Index>& changed)
-  {
-    for (const Index t : changed)
-      tree_.set (place_[t], boxOf (mesh_.triangles[t], positions_));
   }
 
   // Calls visit (u) for the triangles that cross one, until it returns true.

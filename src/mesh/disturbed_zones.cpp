@@ -3,7 +3,6 @@
 #include "mesh/disturbed_zones.h"
 
 #include "core/disjoint_sets.h"
-#include "core/geometry.h"
 #include "core/parallel.h"
 
 #include <map>
@@ -33,11 +32,10 @@ constexpr std::size_t LONG_RUN = 32;
 class ZoneFinder
 {
 public:
-  ZoneFinder (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-              const std::vector<float>& spacing, bool whole_loops, bool closes_gaps,
-              const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
-        whole_loops_ (whole_loops), closes_gaps_ (closes_gaps), run_ (run)
+  ZoneFinder (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+              bool whole_loops, bool closes_gaps, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), geometry_ (geometry), whole_loops_ (whole_loops),
+        closes_gaps_ (closes_gaps), run_ (run)
   {
   }
 
@@ -59,7 +57,13 @@ public:
     for (const std::vector<Index>& loop : loops_)
       for (const Index p : loop)
         zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
-    widen (rings);
+    for (Index p = 0; p < positions_.size (); ++p)
+      if (is_disturbed_[p] != 0)
+        makeFree (p);
+    std::size_t first = 0;
+    for (int ring = 0; ring < rings; ++ring)
+      for (const std::size_t last = free_.size (); first < last; ++first)
+        forEachAround (free_[first], [this] (Index q) { makeFree (q); });
     connect ();
     return std::move (zones_);
   }
@@ -99,7 +103,7 @@ private:
   bool isBesideSheet (Index p, double within) const
   {
     const OnLoop& here = on_loop_.at (p);
-    const Row around = neighbors_.row (p);
+    const Row around = geometry_.neighbors.row (p);
     return std::any_of (around.begin (), around.end (), [&] (Index q) {
       const auto at = on_loop_.find (q);
       if (at == on_loop_.end ())
@@ -107,7 +111,8 @@ private:
       const OnLoop& there = at->second;
       const bool is_same = here.normal.dot (there.normal) > SAME_SHEET;
       const double distance = (positions_[q] - positions_[p]).norm ();
-      if (distance > (is_same ? TOUCHING : within) * static_cast<double> (spacing_[p]) ||
+      if (distance >
+              (is_same ? TOUCHING : within) * static_cast<double> (geometry_.meshSpacing ()[p]) ||
           (is_same && mesh_.hasEdge (p, q)))
         return false;
       const double way = std::abs (there.way - here.way);
@@ -193,7 +198,7 @@ private:
                    normal = ab.cross (ac), to_centre = toCircumcentre (ab, ac, normal);
     double least = -std::numeric_limits<double>::infinity (), most = -least;
     for (const Index corner : corners)
-      for (const Index p : neighbors_.row (corner)) {
+      for (const Index p : geometry_.neighbors.row (corner)) {
         if (isCorner (corners, p))
           continue;
         const Vector3d offset = positions_[p] - a;
@@ -250,17 +255,6 @@ private:
         visit (q);
   }
 
-  void widen (int rings)
-  {
-    for (Index p = 0; p < positions_.size (); ++p)
-      if (is_disturbed_[p] != 0)
-        makeFree (p);
-    std::size_t first = 0;
-    for (int ring = 0; ring < rings; ++ring)
-      for (const std::size_t last = free_.size (); first < last; ++first)
-        forEachAround (free_[first], [this] (Index q) { makeFree (q); });
-  }
-
   // Zones with something wrong in them; the others are not free any more.
   void connect ()
   {
@@ -268,7 +262,7 @@ private:
     DisjointSets sets (positions_.size ());
     for (const Index p : free_) {
       forEachAround (p, [&] (Index q) { sets.join (p, q); });
-      for (const Index q : neighbors_.row (p))
+      for (const Index q : geometry_.neighbors.row (p))
         if (isFree (q))
           sets.join (p, q);
     }
@@ -291,8 +285,7 @@ private:
 
   const TriangleMesh& mesh_;
   const Positions& positions_;
-  const CsrLists& neighbors_;
-  const std::vector<float>& spacing_;
+  const LocalGeometry& geometry_;
   const bool whole_loops_, closes_gaps_;
   const RunContext& run_;
   std::vector<std::vector<Index>> loops_;
@@ -307,11 +300,11 @@ private:
 } // namespace
 
 DisturbedZones
-findDisturbedZones (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-                    const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
+findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
+                    const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
                     int rings, bool whole_loops, bool closes_gaps, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, neighbors, spacing, whole_loops, closes_gaps, run)
+  return ZoneFinder (mesh, positions, geometry, whole_loops, closes_gaps, run)
       .find (crossing, rings);
 }
 

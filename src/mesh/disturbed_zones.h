@@ -3,8 +3,7 @@
 // Where a mesh is wrong because several sheets of the surface are near.
 #pragma once
 
-#include "core/csr_lists.h"
-#include "core/run_context.h"
+#include "local/local_geometry.h"
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_mesh.h"
 
@@ -27,14 +26,12 @@ struct DisturbedZones
 /// triangles, and of bent ones that are no Delaunay facets in space; so do `rings` of triangles around.
 /// O(n).
 /// \param crossing  all crossing pairs of the mesh
-/// \param neighbors of each point, nearest first
-/// \param spacing   of each point (see localSpacing)
 /// \param rings     width of a zone around what is disturbed
 /// \param whole_loops whether a loop that is a gap in part counts as one all along
 /// \param closes_gaps false: no boundary loop counts as a gap
 DisturbedZones
-findDisturbedZones (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-                    const std::vector<float>& spacing, const std::vector<CrossingPair>& crossing,
+findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
+                    const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
                     int rings, bool whole_loops, bool closes_gaps, const RunContext& run);
 
 } // namespace pcl::floater

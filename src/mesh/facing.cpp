@@ -12,16 +12,52 @@ namespace {
 // side of a bowl or of half a body is visible, at which either is as likely: by generated clouds.
 constexpr double ROOM_CERTAINTY = 0.8, BOWL = 0.3;
 
+// Whether a sheet with this mean normal is to be turned to face up.
+bool
+facesDown (const Vector3d& normal)
+{
+  const double longest = normal.cwiseAbs ().maxCoeff ();
+  for (const int axis : {2, 1})
+    if (std::abs (normal[axis]) >= FacingLimits::EQUAL_AXES * longest)
+      return normal[axis] < 0.0;
+  return normal.x () < 0.0;
+}
+
+// No terrain: it stands.
+bool
+isUpright (const Vector3d& normal)
+{
+  return std::abs (normal.z ()) < FacingLimits::EQUAL_AXES * normal.cwiseAbs ().maxCoeff ();
+}
+
+// Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of two
+// gives 0.9.
+double
+certaintyOf (double factor)
+{
+  const double cube = factor * factor * factor;
+  return cube / (1.0 + cube);
+}
+
+// Confidence that terrain or a sheet faces up: what lies has been seen from above, what stands from
+// either side, and few roofs are steeper than 45 degrees.
+double
+certaintyOfUp (const Vector3d& normal)
+{
+  const double squared_length = normal.squaredNorm ();
+  const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;
+  return 0.5 + 0.5 * square * square;
+}
+
 // Decides the front of each object.
 class FacingJudge
 {
 public:
   FacingJudge (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& found,
-               const FacingObjects& objects, const FacingHints& hints, const FacingLimits& limits,
-               const RunContext& run)
+               const FacingObjects& objects, const FacingHints& hints, const RunContext& run)
       : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
-        limits_ (limits), run_ (run), judged_ (objects.sums.size ()),
-        is_turned_ (objects.sums.size (), 0), is_body_ (objects.sums.size (), 0)
+        run_ (run), judged_ (objects.sums.size ()), is_turned_ (objects.sums.size (), 0),
+        is_body_ (objects.sums.size (), 0)
   {
   }
 
@@ -47,7 +83,7 @@ public:
         decideUp (o);
       // A closed component has one side towards the sensor only if the sensor is within it.
       else if (hints_.wanted == Facing::VIEWPOINT &&
-               (sums.is_closed ? std::abs (sums.seen) > limits_.within_share * sums.in_sight
+               (sums.is_closed ? std::abs (sums.seen) > FacingLimits::WITHIN_SHARE * sums.in_sight
                                : !hints_.faces_sensor))
         decideBySensor (o); // NOLINT(bugprone-branch-clone): the order is that of the evidence
       else if (sums.is_closed) {
@@ -58,15 +94,15 @@ public:
       else if (!by_side && hints_.faces_sensor)
         decide (o, FacingRule::SENSOR, false, 1.0);
       else if (!by_side && hints_.sensor &&
-               std::abs (sums.seen) >= limits_.seen_share * sums.in_sight)
+               std::abs (sums.seen) >= FacingLimits::SEEN_SHARE * sums.in_sight)
         decideBySensor (o);
-      else if (!by_side && isRoom (sums, limits_)) {
+      else if (!by_side && isRoom (sums)) {
         is_body_[o] = 0; // furniture is no wall of a hollow
         decide (o, FacingRule::ROOM, sums.volume > 0.0, ROOM_CERTAINTY);
       }
       // The back side is visible from at least |mean normal| of all directions: all light through
       // the openings reaches it.
-      else if (!by_side && object.mean_normal >= 1.0 / (1.0 + limits_.body_ratio))
+      else if (!by_side && object.mean_normal >= 1.0 / (1.0 + FacingLimits::BODY_RATIO))
         decideSheet (o, 1.0);
       else
         open.push_back (o);
@@ -93,8 +129,8 @@ private:
   {
     const FacingSums& sums = objects_.sums[o];
     const double up = sums.area_vector.z ();
-    const bool stands = sums.from_above <= limits_.flatness * sums.area;
-    decide (o, FacingRule::UP, stands ? facesDown (sums.area_vector, limits_) : up < 0.0,
+    const bool stands = sums.from_above <= FacingLimits::FLATNESS * sums.area;
+    decide (o, FacingRule::UP, stands ? facesDown (sums.area_vector) : up < 0.0,
             stands ? 0.5 : 0.5 + 0.5 * std::abs (up) / sums.from_above);
   }
 
@@ -107,14 +143,14 @@ private:
     }
     const double bulge = bulgeOf (o);
     decide (o, FacingRule::BULGE,
-            bulge == 0.0 ? facesDown (objects_.sums[o].area_vector, limits_) : bulge < 0.0,
+            bulge == 0.0 ? facesDown (objects_.sums[o].area_vector) : bulge < 0.0,
             0.5 + 0.5 * std::abs (bulge));
   }
 
   double bulgeOf (Index o)
   {
     if (bulges_.empty ())
-      bulges_ = bulgesOf (mesh_, positions_, found_, objects_, limits_.flatness);
+      bulges_ = bulgesOf (mesh_, positions_, found_, objects_);
     return bulges_[o];
   }
 
@@ -125,8 +161,8 @@ private:
     double sum = 0.0, area = 0.0;
     for (Index o = 0; !common_bulge_ && o < judged_.size (); ++o)
       if (const FacingSums& sums = objects_.sums[o];
-          !sums.is_closed && isUpright (sums.area_vector, limits_)) {
-        sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector, limits_) ? -1.0 : 1.0);
+          !sums.is_closed && isUpright (sums.area_vector)) {
+        sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector) ? -1.0 : 1.0);
         area += sums.area;
       }
     if (!common_bulge_)
@@ -138,9 +174,9 @@ private:
   void decideSheet (Index o, double certainty)
   {
     const Vector3d& normal = objects_.sums[o].area_vector;
-    const bool is_down = facesDown (normal, limits_);
-    const double bulge = isUpright (normal, limits_) ? commonBulge () : 0.0;
-    if (std::abs (bulge) >= limits_.bulge)
+    const bool is_down = facesDown (normal);
+    const double bulge = isUpright (normal) ? commonBulge () : 0.0;
+    if (std::abs (bulge) >= FacingLimits::BULGE)
       decide (o, FacingRule::BULGE, is_down != (bulge < 0.0), 0.5 + 0.5 * std::abs (bulge));
     else
       decide (o, FacingRule::SHEET, is_down, std::min (certainty, certaintyOfUp (normal)));
@@ -163,9 +199,7 @@ private:
   {
     std::vector<std::optional<SightLineSampler>> samplers (judged_.size ());
     for (const Index o : objects)
-      samplers[o].emplace (objects_.sums[o].area,
-                           std::clamp (objects_.sums[o].triangles / limits_.triangles_per_line,
-                                       limits_.fewest_lines, limits_.lines));
+      samplers[o].emplace (objects_.sums[o].area, objects_.sums[o].triangles);
     std::vector<SightLine> lines;
     for (Index t = 0; t < mesh_.triangles.size (); ++t) {
       const Index component = found_.of_triangle[t];
@@ -188,40 +222,28 @@ private:
     return *rays_;
   }
 
-  // Whether nothing blocks a ray from a line's triangle. Needs rays ().
-  // \param blocks (t, at): whether a triangle does, at this multiple of the direction
-  template <typename Blocks>
-  bool isFree (const SightLine& line, const Vector3d& direction, Blocks&& blocks) const
-  {
-    bool is_free = true;
-    rays_->forHits (line.middle, direction, [&] (Index t, double at) {
-      is_free = t == line.triangle || !blocks (t, at);
-      return !is_free;
-    });
-    return is_free;
-  }
-
   // Number of free lines of each object on either side.
   struct Free
   {
     std::size_t lines = 0, front = 0, back = 0;
   };
+  // \param blocks (own, other): whether another object, or the same, blocks the lines of an object
   template <typename Blocks>
   std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
   {
     const std::vector<SightLine> lines = linesThrough (objects);
-    rays ();
+    const auto isFree = [&, &all = rays ()] (const SightLine& line, const Vector3d& direction) {
+      return !all.forHits (line.middle, direction, [&, own = objectOf (line.triangle)] (Index t) {
+        return t != line.triangle && blocks (own, objectOf (t));
+      });
+    };
     constexpr std::size_t PER_TASK = 32;
     std::vector<std::array<bool, 2>> are_free (lines.size ()); // towards the front, and the back
     parallelTasks (run_, (lines.size () + PER_TASK - 1) / PER_TASK, [&] (std::size_t task) {
       for (std::size_t i = task * PER_TASK; i < std::min (lines.size (), (task + 1) * PER_TASK);
-           ++i) {
-        const auto is_blocking = [&, own = objectOf (lines[i].triangle)] (Index t, double) {
-          return blocks (own, objectOf (t));
-        };
-        are_free[i] = {isFree (lines[i], lines[i].direction, is_blocking),
-                       isFree (lines[i], -lines[i].direction, is_blocking)};
-      }
+           ++i)
+        are_free[i] = {isFree (lines[i], lines[i].direction),
+                       isFree (lines[i], -lines[i].direction)};
     });
     std::vector<Free> free (judged_.size ());
     for (std::size_t i = 0; i < lines.size (); ++i) {
@@ -246,11 +268,10 @@ private:
       object.front = static_cast<double> (free[o].front) / lines;
       object.back = static_cast<double> (free[o].back) / lines;
       const double body = object.front - object.back;
-      const double sheet = limits_.body_ratio * object.mean_normal;
+      const double sheet = FacingLimits::BODY_RATIO * object.mean_normal;
       const bool is_body = std::abs (body) >= sheet;
       is_body_[o] = is_body ? 1 : 0;
-      const bool is_inwards = body < 0.0,
-                 is_down = facesDown (objects_.sums[o].area_vector, limits_);
+      const bool is_inwards = body < 0.0, is_down = facesDown (objects_.sums[o].area_vector);
       const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
       if (hints_.wantsASide ()) {
         decideOutwards (o, body, chance);
@@ -274,7 +295,7 @@ private:
   {
     const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
     Eigen::AlignedBox3d box = outer.box;
-    const Vector3d margin = limits_.nesting_margin * box.sizes ();
+    const Vector3d margin = FacingLimits::NESTING_MARGIN * box.sizes ();
     box.min () -= margin;
     box.max () += margin;
     return inner.area < outer.area && box.contains (inner.box);
@@ -306,9 +327,10 @@ private:
     for (const Index o : inner) {
       const std::size_t outside = isTurned (o) ? free[o].back : free[o].front;
       const std::size_t inside = isTurned (o) ? free[o].front : free[o].back;
-      const bool is_own = objects_.sums[o].is_closed
-                              ? outside > 0
-                              : outside > limits_.own_body_ratio * (inside + limits_.chance_lines);
+      const bool is_own =
+          objects_.sums[o].is_closed
+              ? outside > 0
+              : outside > FacingLimits::OWN_BODY_RATIO * (inside + FacingLimits::CHANCE_LINES);
       if (!is_own)
         decide (o, FacingRule::HOLLOW, !isTurned (o), 1.0);
     }
@@ -321,13 +343,13 @@ private:
     if (around.empty ())
       return 0;
     std::vector<SightLine> lines = linesThrough ({o});
-    lines.resize (std::min (lines.size (), limits_.nesting_lines));
+    lines.resize (std::min (lines.size (), FacingLimits::NESTING_LINES));
     std::size_t count = 0;
     for (const Index other : around) {
       std::size_t odd = 0;
       for (const SightLine& line : lines) {
         std::size_t crossed = 0;
-        rays ().forHits (line.middle, line.direction, [&] (Index t, double) {
+        rays ().forHits (line.middle, line.direction, [&] (Index t) {
           crossed += objectOf (t) == other ? 1 : 0;
           return false;
         });
@@ -343,7 +365,6 @@ private:
   const MeshComponents& found_;
   const FacingObjects& objects_;
   const FacingHints& hints_;
-  const FacingLimits& limits_;
   const RunContext& run_;
   std::optional<TriangleRays> rays_; // made on demand
   std::vector<FacingObject> judged_;
@@ -357,7 +378,7 @@ private:
 
 MeshFacing
 faceOutwards (TriangleMesh& mesh, const Positions& positions, const FacingHints& hints,
-              const FacingLimits& limits, const RunContext& run)
+              const RunContext& run)
 {
   MeshFacing facing;
   FacingHints usable = hints;
@@ -366,8 +387,8 @@ faceOutwards (TriangleMesh& mesh, const Positions& positions, const FacingHints&
   if (facing.lacks_viewpoint)
     usable.wanted = Facing::AUTO;
   const MeshComponents found = findComponents (mesh, run);
-  const FacingObjects objects = findObjects (mesh, positions, found, usable, limits, run);
-  FacingJudge judge (mesh, positions, found, objects, usable, limits, run);
+  const FacingObjects objects = findObjects (mesh, positions, found, usable, run);
+  FacingJudge judge (mesh, positions, found, objects, usable, run);
   facing.objects = judge.judge ();
   Flags is_turned;
   for (Index c = 0; c < found.count; ++c)

@@ -12,10 +12,14 @@ namespace pcl::floater {
 namespace {
 std::vector<FacingSums>
 sumComponents (const TriangleMesh& mesh, const Positions& positions,
-               const MeshComponents& components, const FacingHints& hints,
-               const FacingLimits& limits, const RunContext& run)
+               const MeshComponents& components, const FacingHints& hints, const RunContext& run)
 {
-  const double room_sine = std::sin (limits.room_angle * DEGREE);
+  // Area of a component whose input normals point to one side minus the other, as a share of its
+  // area. Above, they decide; below, they are contradictory. Theory: midway between correct normals,
+  // which have 1, and unoriented ones, which have 0: a quarter of the area has normals to the wrong
+  // side.
+  constexpr double NORMALS_SHARE = 0.5;
+  const double room_sine = std::sin (20.0 * DEGREE); // of floors, ceilings and walls
   std::vector<FacingSums> sums (components.count);
   std::vector<Vector3d> origins (components.count); // near ones, for precision of the volumes
   ProgressLoop progress (run);
@@ -57,7 +61,7 @@ sumComponents (const TriangleMesh& mesh, const Positions& positions,
     }
   }
   for (FacingSums& sum : sums)
-    if (std::abs (sum.along) < limits.normals_share * sum.told) {
+    if (std::abs (sum.along) < NORMALS_SHARE * sum.told) {
       sum.contradictory = sum.told;
       sum.along = sum.told = 0.0;
     }
@@ -119,9 +123,18 @@ struct Continuation
 // In the order of (a, b).
 std::vector<Continuation>
 findContinuations (const TriangleMesh& mesh, const Positions& positions,
-                   const MeshComponents& components, const ContinuationLimits& limits,
-                   const RunContext& run)
+                   const MeshComponents& components, const RunContext& run)
 {
+  constexpr double REACH = 8.0; // largest gap, in mean boundary edges of the component
+  // Of the angle between the direction across the gap and the direction in which either surface ends;
+  // sheets above each other have 0.
+  constexpr double COSINE = 0.5;
+  // Of the edges that continue each other, by length: majority for one orientation over the other, as
+  // a share of all.
+  constexpr double AGREEMENT = 0.5;
+  // Of Continuation::support, over the length of the shorter border. The walls of generated hollow
+  // bodies, which do not continue each other, reach 0.08; halves of a square have 0.3.
+  constexpr double SUPPORT = 0.1;
   if (components.count < 2)
     return {};
   const std::vector<OpenEdge> edges = findOpenEdges (mesh, positions, components);
@@ -146,12 +159,12 @@ findContinuations (const TriangleMesh& mesh, const Positions& positions,
   parallelPoints<Neighbors> (run, votes.size (), [&] (Index i, Neighbors& near) {
     const OpenEdge& edge = edges[i];
     const auto to = [&] (Index j, const Vector3d& middle) {
-      return agreement (edge, edges[j], (middle - middles[i]).normalized (), limits.cosine);
+      return agreement (edge, edges[j], (middle - middles[i]).normalized (), COSINE);
     };
     const auto faces = [&] (const Neighbor& neighbor, const Vector3d& middle) {
       return std::abs (to (neighbor.point, middle)) > 0.0;
     };
-    const double reach = limits.reach * (length[edge.component] / count[edge.component]);
+    const double reach = REACH * (length[edge.component] / count[edge.component]);
     tree.nearestIf (middles[i], edge.ahead, reach, 1, faces, near);
     if (!near.empty () && edges[near.front ().point].component != edge.component) {
       const Index j = near.front ().point;
@@ -169,8 +182,7 @@ findContinuations (const TriangleMesh& mesh, const Positions& positions,
   for (const auto& [pair, sum] : sums) {
     const auto [a, b] = pair;
     const double support = std::abs (sum.first);
-    if (support >= limits.agreement * sum.second &&
-        support >= limits.support * std::min (length[a], length[b]))
+    if (support >= AGREEMENT * sum.second && support >= SUPPORT * std::min (length[a], length[b]))
       found.push_back ({a, b, sum.first < 0.0, support});
   }
   return found;
@@ -180,13 +192,13 @@ findContinuations (const TriangleMesh& mesh, const Positions& positions,
 std::vector<Continuation>
 findTogether (const TriangleMesh& mesh, const Positions& positions,
               const MeshComponents& components, const std::vector<FacingSums>& sums,
-              const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
+              const FacingHints& hints, const RunContext& run)
 {
   if (hints.wanted == Facing::UP || hints.wanted == Facing::VIEWPOINT ||
       (hints.faces_sensor && !hints.wantsASide ()))
     return {};
   if (!hints.is_one_view && !hints.faces_sensor)
-    return findContinuations (mesh, positions, components, limits.continuations, run);
+    return findContinuations (mesh, positions, components, run);
   std::vector<Continuation> all; // each open component with all others
   Index first = NONE;
   for (Index c = 0; c < components.count; ++c)
@@ -197,9 +209,15 @@ findTogether (const TriangleMesh& mesh, const Positions& positions,
   return all;
 }
 
-SignedSets
-join (std::vector<Continuation> continuations, const std::vector<FacingSums>& sums)
+} // namespace
+
+FacingObjects
+findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
+             const FacingHints& hints, const RunContext& run)
 {
+  const std::vector<FacingSums> sums = sumComponents (mesh, positions, components, hints, run);
+  std::vector<Continuation> continuations =
+      findTogether (mesh, positions, components, sums, hints, run);
   SignedSets sets (sums.size ());
   std::stable_sort (
       continuations.begin (), continuations.end (),
@@ -219,19 +237,6 @@ join (std::vector<Continuation> continuations, const std::vector<FacingSums>& su
     if (told[root] == 0)
       told[root] = sign * told[other];
   }
-  return sets;
-}
-
-} // namespace
-
-FacingObjects
-findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
-             const FacingHints& hints, const FacingLimits& limits, const RunContext& run)
-{
-  const std::vector<FacingSums> sums =
-      sumComponents (mesh, positions, components, hints, limits, run);
-  SignedSets sets =
-      join (findTogether (mesh, positions, components, sums, hints, limits, run), sums);
   FacingObjects objects;
   std::vector<Index> of_root (sums.size (), NONE);
   for (Index c = 0; c < sums.size (); ++c) {
@@ -249,7 +254,7 @@ findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshCom
 
 std::vector<double>
 bulgesOf (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
-          const FacingObjects& objects, double flatness)
+          const FacingObjects& objects)
 {
   const std::size_t count = objects.sums.size ();
   std::vector<Vector3d> middle (count, Vector3d::Zero ()); // of the boundary
@@ -273,55 +278,28 @@ bulgesOf (const TriangleMesh& mesh, const Positions& positions, const MeshCompon
   }
   for (std::size_t o = 0; o < count; ++o) {
     const FacingSums& sums = objects.sums[o];
-    const bool is_flat =
-        sums.box.isEmpty () || volumes[o] <= flatness * sums.area * sums.box.diagonal ().norm ();
+    const bool is_flat = sums.box.isEmpty () || volumes[o] <= FacingLimits::FLATNESS * sums.area *
+                                                                  sums.box.diagonal ().norm ();
     bulges[o] = is_flat ? 0.0 : bulges[o] / volumes[o];
   }
   return bulges;
 }
 
 bool
-facesDown (const Vector3d& normal, const FacingLimits& limits)
+isRoom (const FacingSums& sums)
 {
-  const double longest = normal.cwiseAbs ().maxCoeff ();
-  for (const int axis : {2, 1})
-    if (std::abs (normal[axis]) >= limits.equal_axes * longest)
-      return normal[axis] < 0.0;
-  return normal.x () < 0.0;
-}
-
-bool
-isUpright (const Vector3d& normal, const FacingLimits& limits)
-{
-  return std::abs (normal.z ()) < limits.equal_axes * normal.cwiseAbs ().maxCoeff ();
-}
-
-double
-certaintyOf (double factor)
-{
-  const double cube = factor * factor * factor;
-  return cube / (1.0 + cube);
-}
-
-double
-certaintyOfUp (const Vector3d& normal)
-{
-  const double squared_length = normal.squaredNorm ();
-  const double square = squared_length > 0.0 ? normal.z () * normal.z () / squared_length : 0.0;
-  return 0.5 + 0.5 * square * square;
-}
-
-bool
-isRoom (const FacingSums& sums, const FacingLimits& limits)
-{
+  // Of the area: at least in floors, ceilings and walls, and in each kind; at most in openings, with as
+  // much floor as ceiling. A ball has a SHARE of 0.4, a sheet no ceiling, a tube no floor, and what
+  // stands on the ground no bottom.
+  constexpr double SHARE = 0.7, PART = 0.1, OPENINGS = 0.1;
   constexpr double FURNITURE = 0.3; // or walls within; generated rooms have 0.15, and fandisk, a
                                     // part of a machine with level and upright faces, 0.57
   // Six times the floor, which is a quarter of the doubled area, times the height.
   const double prism = 1.5 * sums.from_above * sums.box.sizes ().z ();
-  return sums.upright + sums.level >= limits.room_share * sums.area &&
-         std::min (sums.upright, sums.level) >= limits.room_part * sums.area &&
-         std::abs (sums.area_vector.z ()) <= limits.room_openings * sums.from_above &&
-         sums.meanNormal () <= limits.room_openings &&
+  return sums.upright + sums.level >= SHARE * sums.area &&
+         std::min (sums.upright, sums.level) >= PART * sums.area &&
+         std::abs (sums.area_vector.z ()) <= OPENINGS * sums.from_above &&
+         sums.meanNormal () <= OPENINGS &&
          std::abs (std::abs (sums.volume) - prism) <= FURNITURE * prism;
 }
 

@@ -6,6 +6,48 @@
 #include "mesh/facing.h"
 
 namespace pcl::floater {
+/// Thresholds of the facing.
+struct FacingLimits
+{
+  /// By how much more the front is visible from outside than the back, as a share of all
+  /// directions, relative to the length of the mean normal. Above, the surface has an inside. A cap
+  /// with a share f of the area of its sphere has f and 1 - f, so that a bowl becomes a valley at f
+  /// = 1/4, where its rim is 60 degrees steep. Theory: an open pit with slopes of 45 degrees, which is
+  /// terrain, has 0.31; a half sphere, which is half a body, has 1.
+  static constexpr double BODY_RATIO = 1.0 / 3.0;
+
+  /// Share of an object: area facing the sensor minus area facing away, by solid angle. Above, it
+  /// was seen from there: one scan has 1 minus its noise; a whole body, half hidden, has 0.
+  static constexpr double SEEN_SHARE = 0.8;
+
+  /// Share of the directions from the sensor in which the inside of a closed component is visible:
+  /// 1 within it, 0 outside. Midway.
+  static constexpr double WITHIN_SHARE = 0.5;
+
+  /// Mean height of a flat object, as a share of its size: rounding of 32-bit coordinates. Flatter
+  /// objects have no bulge.
+  static constexpr double FLATNESS = 1e-6;
+
+  /// Bulge (see bulgesOf) above which a sheet that stands faces the side to which it bulges. Theory:
+  /// a wave has about 0, a dome 1; midway between a wave and an even mixture of both.
+  static constexpr double BULGE = 0.25;
+
+  /// Ratio above which the lengths of the mean normal along two axes count as equal. Chosen by
+  /// hand.
+  static constexpr double EQUAL_AXES = 0.9;
+
+  /// How much an inner object may protrude from an outer one, as a share of its box: windows may
+  /// have cut off the outer one there. Chosen by hand.
+  static constexpr double NESTING_MARGIN = 0.1;
+  /// Lines whose majority decides whether an object is within another one.
+  static constexpr std::size_t NESTING_LINES = 15;
+
+  /// An open body within another one is separate, not the wall of a hollow, if its front has this
+  /// many times as many free lines of sight as its back, beyond a few by chance. Walls of generated
+  /// hollow bodies with windows have up to 3 times as many.
+  static constexpr std::size_t OWN_BODY_RATIO = 8, CHANCE_LINES = 2;
+};
+
 /// Sums over the triangles of a component, or of the components of an object.
 struct FacingSums
 {
@@ -65,38 +107,19 @@ struct FacingObjects
 ///     `contradictory`
 FacingObjects
 findObjects (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
-             const FacingHints& hints, const FacingLimits& limits, const RunContext& run);
+             const FacingHints& hints, const RunContext& run);
 
 /// How far each object bulges out of its boundary to its front: the volume between it and the
 /// middle of its boundary, signed over unsigned, from -1 to 1: 1 for a dome that faces outwards,
 /// about 0 for a wave, 0 for a flat one. O(n).
-/// \param flatness see FacingLimits
 std::vector<double>
 bulgesOf (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& components,
-          const FacingObjects& objects, double flatness);
-
-/// Whether a sheet with this mean normal is to be turned to face up.
-bool
-facesDown (const Vector3d& normal, const FacingLimits& limits);
-
-/// No terrain: it stands.
-bool
-isUpright (const Vector3d& normal, const FacingLimits& limits);
-
-/// Confidence in a decision with this ratio of evidence for and against it, 1 or more. A factor of
-/// two gives 0.9.
-double
-certaintyOf (double factor);
-
-/// Confidence that terrain or a sheet faces up: what lies has been seen from above, what stands from
-/// either side, and few roofs are steeper than 45 degrees.
-double
-certaintyOfUp (const Vector3d& normal);
+          const FacingObjects& objects);
 
 /// Of boxes with openings in their sides only, most are rooms: of a box that was seen from outside,
 /// nothing tells what is within, or the bottom is missing. All of the floor lies below the ceiling,
 /// as in no part of a machine.
 bool
-isRoom (const FacingSums& sums, const FacingLimits& limits);
+isRoom (const FacingSums& sums);
 
 } // namespace pcl::floater

@@ -21,15 +21,13 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
               const TriangleCost& cost, const Flags& is_remade, const RunContext& run)
 {
   std::vector<BoundaryLoop> pinholes;
-  std::vector<Index> fan;
-  const auto isBeside = [&] (Index p) {
-    mesh.fan (p, fan);
-    return std::any_of (fan.begin (), fan.end (), [&] (Index t) {
-      return anyCorner (mesh.triangles[t], [&] (Index q) { return is_remade[q] != 0; });
-    });
+  const auto isBeside = [&] (std::vector<Index> points) {
+    addRing (mesh, points);
+    return std::any_of (points.begin (), points.end (),
+                        [&] (Index p) { return is_remade[p] != 0; });
   };
   for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
-    if (loop.size () <= SMALL_LOOP && std::any_of (loop.begin (), loop.end (), isBeside)) {
+    if (loop.size () <= SMALL_LOOP && isBeside (loop)) {
       pinholes.emplace_back ();
       pinholes.back ().points = loop;
       measureLoop (pinholes.back (), positions, spacing);
@@ -41,7 +39,7 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
 // \return whether fewer cross then, and no point is lost; else the mesh stays as it was
 bool
 openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-               const SplitLimits& limits, CrossingPairs& crossing, const RunContext& run)
+               CrossingPairs& crossing, const RunContext& run)
 {
   if (crossing.empty () || !crossing.untested.empty ())
     return false;
@@ -54,7 +52,7 @@ openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& n
   std::vector<Triangle> before = mesh.triangles;
   const auto unused = countUnused ();
   removeTriangles (mesh, std::move (is_chosen), run);
-  addMissingPoints (mesh, positions, neighbors, limits, run);
+  addMissingPoints (mesh, positions, neighbors, run);
   CrossingPairs after = findSelfIntersections (mesh.triangles, positions, run);
   if (after.size () < crossing.size () && after.untested.empty () && countUnused () <= unused) {
     crossing = std::move (after);
@@ -73,10 +71,10 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
   MeshFinish finish;
   Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run);
-  const TriangleCost cost (positions, normals, &geometry.meshSpacing (), settings.limits.cost);
+  const TriangleCost cost (positions, normals, &geometry.meshSpacing ());
   run.beginStep (AFTER_POINTS);
   if (settings.add_points)
-    addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
+    addMissingPoints (mesh, positions, geometry.neighbors, run);
   run.beginStep (AFTER_FLIPS);
   if (settings.flip_edges)
     finish.flips = flipEdges (mesh, cost, run);
@@ -95,12 +93,11 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
     const auto remake = [&] (int widest) {
       if (!settings.remake_sheets || !finish.crossing->untested.empty ())
         return;
-      remakeZones (mesh, positions, geometry.neighbors, geometry.meshSpacing (), *finish.crossing,
-                   widest, finish.remade, settings.closes_gaps, run);
+      remakeZones (mesh, positions, geometry, *finish.crossing, widest, finish.remade,
+                   settings.closes_gaps, run);
       if (finish.remade.points () == 0)
         return;
-      std::size_t changes =
-          addMissingPoints (mesh, positions, geometry.neighbors, settings.limits.splits, run);
+      std::size_t changes = addMissingPoints (mesh, positions, geometry.neighbors, run);
       if (settings.closes_gaps)
         changes += fillPinholes (mesh, positions, geometry.meshSpacing (), cost,
                                  finish.remade.is_remade, run);
@@ -134,28 +131,26 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
       if (!is_noise && givesUp ())
         return finish;
       while (settings.open_boundary &&
-             openCrossings (mesh, positions, geometry.neighbors, settings.limits.splits,
-                            *finish.crossing, run) &&
+             openCrossings (mesh, positions, geometry.neighbors, *finish.crossing, run) &&
              !is_noise) // in noise, the repair would take as long as before
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
     }
   }
-  finish.facing = faceOutwards (mesh, positions, settings.facing, settings.limits.facing, run);
+  finish.facing = faceOutwards (mesh, positions, settings.facing, run);
   return finish;
 }
 
 Repairs
 repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry, Repair kind,
-            const FinishLimits& limits, MeshFinish& finish, const RunContext& run)
+            const RepairLimits& limits, MeshFinish& finish, const RunContext& run)
 {
   // The triangles have changed; normals may have the wrong sign now.
   Normals& normals = geometry.stars.normals;
   orientNormals (mesh, positions, normals, run, finish.remade.is_remade);
   const Repairs done = repairFlaws (
       mesh, *finish.crossing, geometry.neighbors,
-      TriangleCost (positions, normals, &geometry.meshSpacing (), limits.cost), positions, kind,
-      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits.repair,
-      run);
+      TriangleCost (positions, normals, &geometry.meshSpacing ()), positions, kind,
+      findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits, run);
   finish.repairs += done;
   return done;
 }

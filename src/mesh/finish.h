@@ -3,33 +3,21 @@
 // Final changes of a mesh of any method: missing points, flips, repair, orientation.
 #pragma once
 
-#include "local/local_geometry.h"
 #include "mesh/facing.h"
 #include "mesh/flaw_repair.h"
 #include "mesh/open_boundary.h"
 #include "mesh/remaking.h"
 #include "mesh/triangle_cost.h"
-#include "mesh/triangle_mesh.h"
 #include "mesh/vertex_splits.h"
-#include "points/neighbors.h"
 
 namespace pcl::floater {
-/// The limits of all steps of finishMesh.
-struct FinishLimits
-{
-  CostLimits cost;
-  RepairLimits repair;
-  SplitLimits splits;
-  FacingLimits facing;
-};
-
 struct FinishSettings
 {
   bool flip_edges = true;
 
   /// Share of all edges. If more are folded after the flips, repair is hopeless.
   double largest_fold_share = std::numeric_limits<double>::infinity ();
-  FinishLimits limits = {};
+  RepairLimits limits = {}; ///< of the repair
   FacingHints facing = {};
   /// Asked with all crossing pairs that are left: whether to stop there, since the caller begins with
   /// another mesh. In noise, it is asked before the repair, which takes most of the time.
@@ -70,6 +58,6 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
 /// \param[in,out] finish knows all crossing pairs, and what was made anew
 Repairs
 repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry, Repair kind,
-            const FinishLimits& limits, MeshFinish& finish, const RunContext& run);
+            const RepairLimits& limits, MeshFinish& finish, const RunContext& run);
 
 } // namespace pcl::floater

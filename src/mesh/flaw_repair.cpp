@@ -36,21 +36,6 @@ isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair re
   return false;
 }
 
-// Of each triangle.
-Flags
-findFlawed (const TriangleMesh& mesh, const TriangleCost& cost, const Positions& positions,
-            Repair repair, const Ridges& ridges, const RunContext& run)
-{
-  const auto normal = [&] (Index t) -> Vector3d {
-    return areaVectorOf (mesh.triangles[t], positions);
-  };
-  Flags is_flawed (mesh.triangles.size ());
-  parallelPoints (run, is_flawed.size (), [&] (Index t) {
-    is_flawed[t] = isFlawed (mesh, cost, t, repair, ridges, normal) ? 1 : 0;
-  });
-  return is_flawed;
-}
-
 class FlawRepair
 {
 public:
@@ -60,7 +45,7 @@ public:
               const RunContext& run)
       : mesh_ (mesh), repair_ (repair), ridges_ (ridges), limits_ (limits), run_ (run),
         is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
-        mover_ (mesh, positions, neighbors, cost, limits.largest_fan, limits.places, run),
+        mover_ (mesh, positions, neighbors, cost, run),
         most_tests_ (
             (repair == Repair::AT_THE_END ? 3 : 1) *
             std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),
@@ -302,7 +287,7 @@ private:
     change ();
     const long pairs = table_.tryChange (changed_, std::max (most_pairs, 0L) + 1);
     mesh_.undo (mark);
-    table_.reject (changed_);
+    table_.renewBoxes (changed_);
     return pairs <= most_pairs && gain (pairs) > VertexMover::IMPROVES ? gain (pairs) : 0.0;
   }
 
@@ -389,7 +374,11 @@ repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighb
 {
   if (!crossing.untested.empty ())
     return {};
-  Flags is_flawed = findFlawed (mesh, cost, positions, repair, ridges, run);
+  const auto normal = [&] (Index t) { return areaVectorOf (mesh.triangles[t], positions); };
+  Flags is_flawed (mesh.triangles.size ());
+  parallelPoints (run, is_flawed.size (), [&] (Index t) {
+    is_flawed[t] = isFlawed (mesh, cost, t, repair, ridges, normal) ? 1 : 0;
+  });
   if (crossing.empty () && std::count (is_flawed.begin (), is_flawed.end (), 1) == 0)
     return {};
   FlawRepair search (mesh, std::move (is_flawed), crossing, neighbors, cost, positions, repair,

@@ -12,13 +12,9 @@ namespace pcl::floater {
 /// Costs and limits of the search. Where no measurement is told, they were chosen by hand.
 struct RepairLimits
 {
-  double pair_cost = 1000.0;    ///< of a crossing pair, in the unit of TriangleCost: as much as an
-                                ///< edge that is folded by 180 degrees (CostLimits::fold_cost)
-  std::size_t largest_fan = 24; ///< triangles around a vertex that is moved. 12, 16 and 40 leave
-                                ///< about as many flaws
-  std::size_t places = 8;       ///< neighbours whose fan a vertex to move may split. 4 and 12 leave
-                                ///< about as many flaws
-  std::size_t passes = 6;       ///< over the flawed triangles; the first two do most of the work
+  /// Of a crossing pair: as much as an edge that is folded by 180 degrees.
+  double pair_cost = TriangleCost::FOLD_COST;
+  std::size_t passes = 6; ///< over the flawed triangles; the first two do most of the work
 
   /// Patches are rebuilt around a triangle: its corners and those of the triangles that it crosses,
   /// or else of those beside it, then also one ring around. Without this, three of four terrains
@@ -42,7 +38,7 @@ struct RepairLimits
 /// What counts as a flaw besides triangles that cross, and what a change must not make worse.
 enum class Repair
 {
-  BEFORE_REMAKING, ///< turned triangles (see CostLimits), flat ones, and those more than 90 degrees
+  BEFORE_REMAKING, ///< turned triangles (see TriangleCost), flat ones, and those more than 90 degrees
                    ///< from a neighbouring one; the sum of folded edges and crossing pairs
   AT_THE_END       ///< triangles at folded edges (isFold); the folded edges, and the crossing pairs
 };
@@ -68,7 +64,7 @@ struct Repairs
 /// Flips edges and moves vertices (see VertexMover) at flawed triangles, where a vertex may be in
 /// the wrong triangles, for example of another sheet; where neither helps, removes all vertices of
 /// a patch and reinserts them in other orders. A change must lower the total cost of mesh and
-/// crossing pairs, make no more long triangles (see CostLimits), and not make worse what Repair
+/// crossing pairs, make no more long triangles (see TriangleCost), and not make worse what Repair
 /// says; of several, the best is kept. The boundary and the topology stay; every point keeps its
 /// triangles. O(n) initially, and O(log n) for each of a few hundred trials per flawed triangle,
 /// within the limits; does nothing if some pairs are untested. One thread.

@@ -62,8 +62,8 @@ EdgeFlipper::improves (MeshEdge e) const
   if (m.triangle == NONE)
     return false;
   const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
-  const TriangleCost::Value now_cab = cost_ (c, a, b), now_dba = cost_ (d, b, a);
-  const TriangleCost::Value then_cad = cost_ (c, a, d), then_dbc = cost_ (d, b, c);
+  const TriangleCost::Value now_cab = cost_ ({c, a, b}), now_dba = cost_ ({d, b, a});
+  const TriangleCost::Value then_cad = cost_ ({c, a, d}), then_dbc = cost_ ({d, b, c});
   const double now = now_cab.cost + now_dba.cost;
   const double then = then_cad.cost + then_dbc.cost;
   if (then >= now && now_cab.unit_normal.dot (now_dba.unit_normal) >= 0.0)

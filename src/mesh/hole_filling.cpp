@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/hole_filling.h"
 
-#include "core/geometry.h"
 #include "core/parallel.h"
 
 #include <set>
-#include <stdexcept>
 
 namespace pcl::floater {
 namespace {

@@ -3,8 +3,6 @@
 // Fills boundary loops by triangulated polygons.
 #pragma once
 
-#include "core/run_context.h"
-#include "core/types.h"
 #include "mesh/loops.h"
 #include "mesh/triangle_cost.h"
 
@@ -105,7 +103,7 @@ fillingCost (const TriangleCost& cost, const Positions& positions, double step)
   // the narrow gap, instead of each being closed on its own. Chosen by hand; no measurement is recorded.
   constexpr double AREA_COST = 200.0;
   return [&cost, &positions, area_cost = AREA_COST / (step * step)] (Index p, Index q, Index r) {
-    return cost (p, q, r) +
+    return cost (p, q, r).cost +
            area_cost * areaVector (positions[p], positions[q], positions[r]).norm ();
   };
 }

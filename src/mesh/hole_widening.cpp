@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/loops.h"
 
-#include "core/geometry.h"
 #include "mesh/open_boundary.h"
 #include "mesh/trimming.h"
 
@@ -17,17 +16,14 @@ using TrianglesOverHoles = std::vector<std::pair<Index, Index>>;
 // other places have no points.
 std::vector<BoundaryLoop>
 widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loops,
-              const TrianglesOverHoles& removed, const std::vector<Index>& loop_of,
-              const Positions& positions, const std::vector<float>& spacing, const RunContext& run)
+              const std::vector<Index>& loop_of, const Positions& positions,
+              const std::vector<float>& spacing, const RunContext& run)
 {
-  Flags is_widened (loops.size (), 0);
-  for (const auto& [triangle, loop] : removed)
-    is_widened[loop] = 1;
   std::vector<BoundaryLoop> found (loops.size ());
   for (std::vector<Index>& points : boundaryLoops (widened, run)) {
     const auto own = std::find_if (points.begin (), points.end (),
                                    [&loop_of] (Index p) { return loop_of[p] != NONE; });
-    if (own == points.end () || is_widened[loop_of[*own]] == 0)
+    if (own == points.end () || points == loops[loop_of[*own]].points)
       continue;
     BoundaryLoop& loop = found[loop_of[*own]] = loops[loop_of[*own]];
     loop.points = std::move (points);
@@ -100,14 +96,12 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
 
 void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
-            const RunContext& run)
+            const LocalGeometry& geometry, const RunContext& run)
 {
   // Of a widened loop that stays open, at least; 4 to 1: it is chosen among many for looking open, and
   // a gap that is opened counts as four windows that are filled.
   constexpr double LEAST_LOG_ODDS = 1.39;
-  const std::vector<LoopEvidence> evidence =
-      judgeLoops (mesh, loops, positions, neighbors, normals, run);
+  const std::vector<LoopEvidence> evidence = judgeLoops (mesh, loops, positions, geometry, run);
   std::vector<Index> loop_of (positions.size (), NONE); // of each point on one
   for (Index i = 0; i < loops.size (); ++i)
     for (const Index p : loops[i].points)
@@ -117,8 +111,8 @@ widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Position
   if (!over.empty ()) {
     TriangleMesh widened = mesh;
     removeOver (over, widened, run);
-    wide = widenedLoops (widened, loops, over, loop_of, positions, spacing, run);
-    judgeLoops (widened, wide, positions, neighbors, normals, run);
+    wide = widenedLoops (widened, loops, loop_of, positions, geometry.spacing, run);
+    judgeLoops (widened, wide, positions, geometry, run);
   }
   std::vector<BoundaryLoop*> best;
   for (Index i = 0; i < loops.size (); ++i)

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/loops.h"
 
-#include "core/geometry.h"
 #include "local/planar_star.h"
 #include "local/star_reach.h"
 #include "mesh/hole_filling.h"
+
+#include <set>
 
 namespace pcl::floater {
 namespace {
@@ -252,15 +253,16 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
 
 std::vector<LoopEvidence>
 judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const CsrLists& neighbors, const Normals& normals, const RunContext& run)
+            const LocalGeometry& geometry, const RunContext& run)
 {
+  const Normals& normals = geometry.stars.normals;
   PlanarStar star;
   std::vector<PlanarNeighbor> planar;
   // Whether a point has a large sector without neighbours, on its own sheet or on any.
   const auto hasEmptySector = [&] (Index p, bool same_sheet) {
     const TangentFrame frame (normals[p].cast<double> ());
     planar.clear ();
-    for (const Index q : neighbors.row (p)) {
+    for (const Index q : geometry.neighbors.row (p)) {
       const Vector3d offset = positions[q] - positions[p];
       if (!same_sheet || onSameSheet (frame.normal, normals[q].cast<double> (), offset))
         planar.push_back ({frame.project (offset), q});
@@ -333,17 +335,16 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops)
 }
 
 void
-chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
-                 double unit)
+chooseOpenLoops (std::vector<BoundaryLoop>& loops, const HoleOptions& holes, double unit)
 {
-  Flags has_one (components, 0);
+  std::set<Index> have_one; // components
   int kept = 0;
   switch (holes.policy) {
   case HolePolicy::CLOSE_ALL:
     return;
   case HolePolicy::KEEP_LARGEST:
     for (BoundaryLoop* loop : fromLargest (loops, [] (const BoundaryLoop& l) { return l.length; }))
-      loop->keep_open = std::exchange (has_one[loop->component], std::uint8_t{1}) == 0;
+      loop->keep_open = have_one.insert (loop->component).second;
     return;
   case HolePolicy::KEEP_COUNT:
     for (BoundaryLoop* loop :

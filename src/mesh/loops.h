@@ -3,10 +3,8 @@
 // Boundary loops: how they are found, measured, and widened, and which stay open.
 #pragma once
 
-#include "core/csr_lists.h"
+#include "local/local_geometry.h"
 #include "mesh/triangle_mesh.h"
-
-#include <pcl/surface/floater/options.h>
 
 namespace pcl::floater {
 /// Judgement of a boundary loop.
@@ -35,9 +33,8 @@ struct BoundaryLoop
   bool keep_open = false;    ///< it is a boundary of the surface
 };
 
-/// Sets length, width and spacing from the points. The width of a loop of up to 256 points is
-/// exact. For a longer one, at most 256 points at equal steps along the loop are used: the width is
-/// too small by at most two of these steps. O(points).
+/// Sets length, width and spacing from the points. For the width of a loop of more than 256 points, at
+/// most 256 at equal steps along it are used: it is too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
 void
 measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing);
@@ -81,13 +78,12 @@ isDoubtful (const LoopJudgement& judgement);
 /// Judges all measured loops that have points. Uses the mesh three rings into the surface, and the
 /// neighbours of the points of each loop. O(n + k log k) for a point of k neighbours, with n for the
 /// points of all rings, and O(m^3) for a loop of m points, up to 64.
-/// \param mesh      with its loops open
-/// \param neighbors of each point of the mesh
-/// \param normals   of each point of the mesh, unit length, any sign
+/// \param mesh     with its loops open
+/// \param geometry neighbours and normals of each point of the mesh; these have any sign
 /// \return evidence of each loop, in the order of the loops
 std::vector<LoopEvidence>
 judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const CsrLists& neighbors, const Normals& normals, const RunContext& run);
+            const LocalGeometry& geometry, const RunContext& run);
 
 /// Changes the judgements of loops that are not certain by those of the loops of about the same width:
 /// a surface has several windows of one size, or many gaps of one sampling. The width is not measured
@@ -107,20 +103,17 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops);
 /// requested number of loops is taken from the most likely boundaries on; the largest loop of each
 /// component is the longest of its likely boundaries. If likely boundaries run out, both use the
 /// length of the loop with no point beyond. O(m log m) for m loops.
-/// \param components number of components of the mesh
-/// \param unit       length of one unit of the cloud in the unit of the positions
+/// \param unit length of one unit of the cloud in the unit of the positions
 void
-chooseOpenLoops (std::vector<BoundaryLoop>& loops, std::size_t components, const HoleOptions& holes,
-                 double unit);
+chooseOpenLoops (std::vector<BoundaryLoop>& loops, const HoleOptions& holes, double unit);
 
 /// Judges loops, and removes triangles over a hole where a loop that looks like a gap becomes a
 /// likely boundary without them; doubtful loops of one width together (see judgeTogether). O(n) plus
 /// twice judgeLoops ().
-/// \param loops   of the mesh, ascending by their smallest points before
-/// \param spacing local spacing of each point
+/// \param loops    of the mesh, ascending by their smallest points before
+/// \param geometry neighbours, normals and spacing of each point of the mesh
 void
 widenHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions& positions,
-            const std::vector<float>& spacing, const CsrLists& neighbors, const Normals& normals,
-            const RunContext& run);
+            const LocalGeometry& geometry, const RunContext& run);
 
 } // namespace pcl::floater

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/neck_cutting.h"
 
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/hole_filling.h"
@@ -12,7 +11,6 @@
 
 #include <map>
 #include <set>
-#include <stdexcept>
 
 namespace pcl::floater {
 namespace {
@@ -40,12 +38,9 @@ public:
   {
     for (std::size_t ring = 0; ring < RINGS; ++ring)
       addRing (mesh, points_);
-    is_on_loop_.assign (points_.size (), 0);
     is_rim_.assign (points_.size (), 0);
-    for (const Index p : loop) {
+    for (const Index p : loop)
       loop_.push_back (numberOf (p));
-      is_on_loop_[loop_.back ()] = 1;
-    }
     positions_ = valuesAt (positions, points_);
     for (std::size_t i = 0; i < loop.size (); ++i)
       axis_ += positions[loop[i]].cross (positions[loop[(i + 1) % loop.size ()]]);
@@ -59,7 +54,7 @@ public:
       for (const Index t : fan) {
         const Triangle& c = mesh.triangles[t];
         const Triangle corners{numberOf (c[0]), numberOf (c[1]), numberOf (c[2])};
-        if (*std::max_element (corners.begin (), corners.end ()) == NONE)
+        if (isCorner (corners, NONE))
           is_rim_[i] = 1;
         else if (*std::min_element (corners.begin (), corners.end ()) == i) {
           triangles_.push_back (t);
@@ -83,7 +78,7 @@ public:
       TriangleMesh after;
       if (!takeOut (sides, after.triangles) || !after.connect (points_.size (), run_, &is_rim_))
         continue;
-      addMissingPoints (after, positions_, neighbors_, {}, run_);
+      addMissingPoints (after, positions_, neighbors_, run_);
       if (std::count (after.triangle_of.begin (), after.triangle_of.end (), NONE) > 0 ||
           rimEdges (after) != rim)
         continue;
@@ -103,7 +98,10 @@ private:
 
   Index numberOf (Index p) const { return placeIn (points_, p); }
 
-  bool isOnLoop (Index p) const { return is_on_loop_[p] != 0; }
+  bool isOnLoop (Index p) const
+  {
+    return std::find (loop_.begin (), loop_.end (), p) != loop_.end ();
+  }
 
   // Marks the triangles at the loop as left or right of it.
   // \return false if some are both
@@ -231,9 +229,8 @@ private:
   CsrLists neighbors_;
   TriangleCost cost_;
   TriangleMesh before_;
-  Flags side_;       // of each triangle before: its sides of the loop
-  Flags is_on_loop_; // of each point
-  Flags is_rim_;     // of each point: some of its triangles are not here
+  Flags side_;   // of each triangle before: its sides of the loop
+  Flags is_rim_; // of each point: some of its triangles are not here
 };
 
 // The cuts of all loops that may be made, the cheapest first.
@@ -302,7 +299,6 @@ cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& g
     if (!changed.connect (positions.size (), run))
       throw std::logic_error ("a neck was cut so that the mesh does not fit");
     mesh = std::move (changed);
-    sortUnique (again);
     for (std::size_t ring = 0; ring < RINGS + LONGEST_LOOP / 2; ++ring)
       addRing (mesh, again);
     Flags is_far (positions.size (), 1);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/open_boundary.h"
 
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "mesh/folds.h"
 #include "mesh/trimming.h"
@@ -53,22 +52,6 @@ cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
   const Vector3d b = positions[mesh.to (e)] - corner;
   const double product = a.norm () * b.norm ();
   return product > 0.0 ? a.dot (b) / product : 1.0;
-}
-
-// Cosines of the corners of some triangles, spread evenly over the mesh.
-std::vector<double>
-sampleCorners (const TriangleMesh& mesh, const Positions& positions, const RunContext& run)
-{
-  constexpr std::size_t SAMPLE = 20'000; // triangles
-  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
-  std::vector<double> cosines;
-  ProgressLoop progress (run); // each triangle may load memory pages
-  for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
-    progress.next ();
-    for (std::uint8_t side = 0; side < 3; ++side)
-      cosines.push_back (cosineAt ({static_cast<Index> (t), side}, mesh, positions));
-  }
-  return cosines;
 }
 
 } // namespace
@@ -136,11 +119,19 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
   // triangles again.
   constexpr double USUAL_SHARE = 0.03;
   constexpr double LARGEST_COSINE = -0.02; // 91 degrees: rounding does not decide in a grid
+  constexpr std::size_t SAMPLE = 20'000;   // triangles whose corners are asked
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
   BoundaryPeel peel (mesh);
   if (peel.edges ().empty ())
     return 0;
-  std::vector<double> corners = sampleCorners (mesh, positions, run);
+  std::vector<double> corners; // cosines, of triangles that are spread evenly over the mesh
+  const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
+  ProgressLoop progress (run); // each triangle may load memory pages
+  for (std::size_t t = 0; t < mesh.triangles.size (); t += step) {
+    progress.next ();
+    for (std::uint8_t side = 0; side < 3; ++side)
+      corners.push_back (cosineAt ({static_cast<Index> (t), side}, mesh, positions));
+  }
   const double limit = std::min (LARGEST_COSINE, quantile (corners, USUAL_SHARE));
   std::priority_queue<Notch, std::vector<Notch>, std::greater<>> notches;
   const auto offer = [&] (MeshEdge e) {

@@ -58,8 +58,7 @@ private:
 /// Removes triangles at a folded edge (isFold) near the boundary: one or two, if the fold then
 /// ends. The first is at the boundary, the second is there after the first is removed. Of several
 /// choices, takes the least area. Such a fold joins a border to something beside it, such as
-/// another sheet or the other side of a slit. Every point keeps a triangle; the numbers of
-/// components and boundary loops and the genus stay. O(n).
+/// another sheet or the other side of a slit. What stays: see BoundaryPeel. O(n).
 ///
 /// Measured on the meshes of 96 generated bodies: this ends 19 of the remaining folds, and 24 of
 /// the 27 triangles are not in the ground truth. With three triangles, 23 would end, and 33 of 38
@@ -76,9 +75,8 @@ Flags
 chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPair>& pairs);
 
 /// Removes triangles with one boundary edge and an unusually obtuse angle opposite to it, the most
-/// obtuse first; this includes triangles that reach the boundary meanwhile. The corner of the angle
-/// must be inside, so every point keeps a triangle, and the numbers of components and boundary
-/// loops and the genus stay. O(n); the result does not depend on the number of threads.
+/// obtuse first; this includes triangles that reach the boundary meanwhile. What stays: see
+/// BoundaryPeel. O(n); the result does not depend on the number of threads.
 ///
 /// At the boundary, the points alone do not determine whether the triangle in a notch belongs to
 /// the surface. If it does, its angles are like those of others; if it only fills the notch, the

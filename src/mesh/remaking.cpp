@@ -5,7 +5,6 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "local/local_geometry.h"
 #include "mesh/neck_cutting.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
@@ -38,11 +37,9 @@ constexpr int MOST_GROWTHS = 4;
 class ZoneRemaker
 {
 public:
-  ZoneRemaker (const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-               const std::vector<float>& spacing, const DisturbedZones& zones,
-               const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), neighbors_ (neighbors), spacing_ (spacing),
-        zones_ (zones), run_ (run)
+  ZoneRemaker (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+               const DisturbedZones& zones, const RunContext& run)
+      : mesh_ (mesh), positions_ (positions), geometry_ (geometry), zones_ (zones), run_ (run)
   {
   }
 
@@ -57,7 +54,7 @@ public:
     std::vector<Index> free (zone.begin (), zone.end ());
     for (int growths = 0; growths <= MOST_GROWTHS; ++growths) {
       const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh_,
-                                      positions_, neighbors_, zones_);
+                                      positions_, geometry_.neighbors, zones_);
       RemadePlace made = remakePlace (at.place, run_);
       if (growths == 0)
         is_noise = isNoise (made.flawed, zone.size ()) ? 1 : 0;
@@ -100,7 +97,8 @@ private:
       const Index* const first =
           zone.first + number * (zone.size () - TRIED_POINTS) / (TRIED_PLACES - 1);
       Place place =
-          placeOf ({first, first + TRIED_POINTS}, mesh_, positions_, neighbors_, zones_).place;
+          placeOf ({first, first + TRIED_POINTS}, mesh_, positions_, geometry_.neighbors, zones_)
+              .place;
       for (std::size_t p = 0; p < place.is_free.size (); ++p)
         place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
       flawed += remakePlace (place, run_, true).flawed;
@@ -116,8 +114,8 @@ private:
   LocalGeometry geometryOf (const PlaceOfMesh& at, const TriangleMesh& mesh) const
   {
     LocalGeometry geometry;
-    geometry.neighbors = rowsWithin (neighbors_, at.points);
-    geometry.spacing = valuesAt (spacing_, at.points);
+    geometry.neighbors = rowsWithin (geometry_.neighbors, at.points);
+    geometry.spacing = valuesAt (geometry_.meshSpacing (), at.points);
     geometry.stars.normals.assign (at.points.size (), Vector3f::Zero ());
     for (const Triangle& t : mesh.triangles)
       for (const Index p : t)
@@ -166,7 +164,7 @@ private:
     Flags is_known (at.place.patches, 0);
     for (std::size_t i = 0; i < at.frame.size (); ++i)
       if (const Index patch = at.place.patch_of[i]; is_known[patch]++ == 0)
-        zone.patches.push_back ({at.frame[i], made.is_turned[patch] != 0});
+        zone.patches.emplace_back (at.frame[i], made.is_turned[patch] != 0);
     return zone;
   }
 
@@ -207,7 +205,7 @@ private:
       for (std::uint8_t side = 0; side < 3; ++side)
         sum += (positions_[mesh_.from ({t, side})] - positions_[mesh_.to ({t, side})]).norm ();
     const double count = static_cast<double> (3 * std::max<std::size_t> (fan.size (), 1));
-    return std::max (static_cast<double> (spacing_[p]), sum / count);
+    return std::max (static_cast<double> (geometry_.meshSpacing ()[p]), sum / count);
   }
 
   bool hasLid (const RemadePlace& made, const std::vector<Index>& points) const
@@ -225,8 +223,7 @@ private:
 
   const TriangleMesh& mesh_;
   const Positions& positions_;
-  const CsrLists& neighbors_;
-  const std::vector<float>& spacing_;
+  const LocalGeometry& geometry_;
   const DisturbedZones& zones_;
   const RunContext run_;
 };
@@ -234,15 +231,15 @@ private:
 } // namespace
 
 void
-remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-             const std::vector<float>& spacing, CrossingPairs& crossing, int widest,
-             RemadeZones& remade, bool closes_gaps, const RunContext& run)
+remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+             CrossingPairs& crossing, int widest, RemadeZones& remade, bool closes_gaps,
+             const RunContext& run)
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
   for (bool whole_loops = true; rings > 0;) {
-    const DisturbedZones zones = findDisturbedZones (mesh, positions, neighbors, spacing, crossing,
-                                                     rings, whole_loops, closes_gaps, run);
+    const DisturbedZones zones = findDisturbedZones (mesh, positions, geometry, crossing, rings,
+                                                     whole_loops, closes_gaps, run);
     if (!whole_loops || !zones.may_be_parts)
       --rings;
     whole_loops = false;
@@ -250,7 +247,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& nei
     Flags is_noise (made.size (), 0);
     if (made.empty ())
       return;
-    const ZoneRemaker remaker (mesh, positions, neighbors, spacing, zones, run.withThreads (1));
+    const ZoneRemaker remaker (mesh, positions, geometry, zones, run.withThreads (1));
     remade.is_noisy.resize (positions.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
       made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);

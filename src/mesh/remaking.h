@@ -29,14 +29,12 @@ struct RemadeZones
 /// with either side as the front. Points of new components by themselves are left without a triangle.
 /// O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
-/// \param neighbors of each point, nearest first
-/// \param spacing   of each point (see localSpacing)
 /// \param widest    rings around what is disturbed, at first
 /// \param[in,out] remade adds what was done to what was done before
 /// \param closes_gaps see findDisturbedZones ()
 void
-remakeZones (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-             const std::vector<float>& spacing, CrossingPairs& crossing, int widest,
-             RemadeZones& remade, bool closes_gaps, const RunContext& run);
+remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
+             CrossingPairs& crossing, int widest, RemadeZones& remade, bool closes_gaps,
+             const RunContext& run);
 
 } // namespace pcl::floater

@@ -15,27 +15,27 @@ namespace {
 // in the last place of the product of their lengths; larger values have the right sign.
 constexpr double ROUNDING = 1e-13;
 
-// Corners of two triangles, common ones first.
-struct Corners
-{
-  Triangle one, other;
-  int common = 0;
-};
+// Limit of the search for pairs, against quadratic work: where points lie along lines, each triangle
+// may overlap a large share of all others. Work on consecutive triangles, for each of them. One unit
+// is some 5 nanoseconds, so that a triangle may take 40 microseconds; three times as long if many
+// tests need exact numbers. And work of the tests of a pair, measured.
+constexpr std::size_t MOST_PAIR_WORK = 8000, TEST_WORK = 30, EXACT_TEST_WORK = 500;
 
-Corners
-commonFirst (Triangle one, Triangle other)
+// Moves the common corners of two triangles to the front, in the same order in both.
+// \return their number
+std::size_t
+moveCommonFirst (Triangle& one, Triangle& other)
 {
-  int common = 0;
+  std::size_t common = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    for (auto j = static_cast<std::size_t> (common); j < 3; ++j)
+    for (std::size_t j = common; j < 3; ++j)
       if (one[i] == other[j]) {
-        // Keeps the order of the common corners equal in both.
-        std::swap (one[static_cast<std::size_t> (common)], one[i]);
-        std::swap (other[static_cast<std::size_t> (common)], other[j]);
+        std::swap (one[common], one[i]);
+        std::swap (other[common], other[j]);
         ++common;
         break;
       }
-  return {one, other, common};
+  return common;
 }
 
 // Whether a plane separates two triangles without a common corner, beyond rounding: a plane along
@@ -113,7 +113,7 @@ areOpposite (const Edges& own, const Edges& other)
 // more, since the plane of one of them, or one through its edges at the corner and across it, has
 // the other one on one side.
 bool
-isBeside (const Edges& own, const Edges& other, int common)
+isBeside (const Edges& own, const Edges& other, std::size_t common)
 {
   const double sqr_a = own[0].squaredNorm (), sqr_b = own[1].squaredNorm ();
   const Vector3d normal = own[0].cross (own[1]);
@@ -130,17 +130,15 @@ isBeside (const Edges& own, const Edges& other, int common)
 } // namespace
 
 bool
-doCross (const Triangle& one, const Triangle& other, const Positions& positions,
-         std::size_t* exact_tests)
+doCross (Triangle one, Triangle other, const Positions& positions, std::size_t* exact_tests)
 {
-  const Corners corners = commonFirst (one, other);
-  if (corners.common == 0 && areSeparate (one, other, positions))
+  const std::size_t common = moveCommonFirst (one, other);
+  if (common == 0 && areSeparate (one, other, positions))
     return false;
-  if (corners.common == 1 || corners.common == 2) {
-    const Edges own = edgesOf (corners.one, positions), others = edgesOf (corners.other, positions);
-    if (corners.common == 1 && areOpposite (own, others))
-      return false;
-    if (isBeside (own, others, corners.common) || isBeside (others, own, corners.common))
+  if (common == 1 || common == 2) {
+    const Edges own = edgesOf (one, positions), others = edgesOf (other, positions);
+    if ((common == 1 && areOpposite (own, others)) || isBeside (own, others, common) ||
+        isBeside (others, own, common))
       return false;
   }
   if (exact_tests != nullptr)
@@ -148,14 +146,14 @@ doCross (const Triangle& one, const Triangle& other, const Positions& positions,
   const auto at = [&positions] (const Triangle& t) {
     return std::array<Vector3d, 3>{positions[t[0]], positions[t[1]], positions[t[2]]};
   };
-  const std::array<Vector3d, 3> a = at (corners.one), b = at (corners.other);
+  const std::array<Vector3d, 3> a = at (one), b = at (other);
   if (areCollinear (a[0], a[1], a[2]) || areCollinear (b[0], b[1], b[2]))
     return false;
-  if (corners.common == 3)
+  if (common == 3)
     return true;
-  if (corners.common == 2)
+  if (common == 2)
     return areOnOneSide (a[0], a[1], a[2], b[2]);
-  if (corners.common == 0)
+  if (common == 0)
     return doMeet (a, b);
   // Any other common point implies one on the edge opposite to the corner, in one of them.
   return doMeet (a, b[1], b[2]) || doMeet (b, a[1], a[2]);
@@ -167,7 +165,6 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
 {
   if (triangles.empty ())
     return {};
-  const PairSearchLimits limits;
   const std::vector<Index> order = orderByPoints (triangles, positions.size ());
   const BoxTree tree (
       triangles.size (), [&] (std::size_t i) { return boxOf (triangles[order[i]], positions); },
@@ -176,7 +173,7 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
   RangeLists<CrossingPair> found (tree.leaves ());
   RangeLists<Index> untested (tree.leaves ());
   parallelRanges (run, tree.leaves (), [&] (std::size_t first, std::size_t last) {
-    const std::size_t most = limits.work * (last - first) * BoxTree::LEAF_SIZE;
+    const std::size_t most = MOST_PAIR_WORK * (last - first) * BoxTree::LEAF_SIZE;
     std::size_t work = 0;
     for (std::size_t begin = first; begin < last; begin += LEAVES_AT_ONCE) {
       const std::size_t end = std::min (begin + LEAVES_AT_ONCE, last);
@@ -188,7 +185,7 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
           std::size_t exact_tests = 0;
           if (doCross (triangles[t], triangles[u], positions, &exact_tests))
             found.of (first).push_back ({t, u});
-          work += limits.test + exact_tests * limits.exact_test;
+          work += TEST_WORK + exact_tests * EXACT_TEST_WORK;
         });
       if (work >= most)
         for (std::size_t i = begin * BoxTree::LEAF_SIZE;

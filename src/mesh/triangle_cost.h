@@ -8,36 +8,30 @@
 #include "mesh/triangle_mesh.h"
 
 namespace pcl::floater {
-/// Penalties of TriangleCost. The unit of cost is that of cotangents: a right isosceles triangle
-/// costs 2, an equilateral one 1.73. All values were chosen by hand, large compared with the cost
-/// of a good triangle; no measurement is recorded.
-struct CostLimits
-{
-  double turned_cosine = 0.2;  ///< between a triangle's normal and the mean normal of its corners;
-                               ///< below, the triangle counts as turned
-  double turned_cost = 1000.0; ///< of a turned triangle, per unit of cosine below turned_cosine
-  double needle_cost = 100.0;  ///< of a shape; beyond, it costs as its logarithm: otherwise flips
-                               ///< fold the surface to be rid of needles, as between far lines.
-                               ///< 50 and 200 gave the same verdicts but for one body of 120
-  double large_area = 3.0;     ///< doubled area, in squared spacings; above, a triangle is large
-  double large_cost = 100.0;   ///< of a large triangle, per squared spacing above large_area
-  double fold_cost = 1000.0;   ///< of an edge whose triangles are more than 90 degrees apart, per
-                               ///< unit of negative cosine between their normals
-  double longest_edge = 3.0; ///< in spacings of the corners; with a longer one, a triangle is long
-};
-
 /// The cost of a triangle: the sum of the cotangents of its angles, which Delaunay flips minimize
 /// in the plane, less for needles, plus penalties if it is turned away from the normals of its
 /// corners or is much larger than usual. Where sheets are close to each other, the penalties reveal
 /// triangles that join the wrong points.
+///
+/// The unit of cost is that of cotangents: a right isosceles triangle costs 2, an equilateral one
+/// 1.73. All penalties were chosen by hand, large compared with the cost of a good triangle; no
+/// measurement is recorded.
 class TriangleCost
 {
 public:
+  /// Between a triangle's normal and the mean normal of its corners; below, it counts as turned.
+  static constexpr double TURNED_COSINE = 0.2;
+  /// Of an edge whose triangles are more than 90 degrees apart, per unit of negative cosine between
+  /// their normals.
+  static constexpr double FOLD_COST = 1000.0;
+  /// In spacings of the corners; with a longer edge, a triangle is long.
+  static constexpr double LONGEST_EDGE = 3.0;
+
   /// \param normals unit length, oriented like the mesh (see orientNormals)
   /// \param spacing of each point (see localSpacing); nullptr: large triangles have no penalty
   TriangleCost (const Positions& positions, const Normals& normals,
-                const std::vector<float>* spacing = nullptr, const CostLimits& limits = {})
-      : positions_ (positions), normals_ (normals), spacing_ (spacing), limits_ (limits)
+                const std::vector<float>* spacing = nullptr)
+      : positions_ (positions), normals_ (normals), spacing_ (spacing)
   {
   }
 
@@ -48,28 +42,22 @@ public:
   };
 
   /// Exactly the same for each choice of the first corner.
-  Value value (Index a, Index b, Index c) const;
+  Value operator() (Index a, Index b, Index c) const;
 
-  double operator() (Index a, Index b, Index c) const { return value (a, b, c).cost; }
-  double operator() (const Triangle& corners) const
-  {
-    return (*this) (corners[0], corners[1], corners[2]);
-  }
-
-  /// True if a triangle is turned (see CostLimits).
+  /// True if a triangle is turned (see TURNED_COSINE).
   bool isTurned (const Triangle& corners) const;
 
   /// True if the corners of a triangle are on one line in single precision.
   bool isFlat (const Triangle& corners) const;
 
-  /// True if a triangle is long (see CostLimits); false without spacings.
+  /// True if a triangle is long (see LONGEST_EDGE); false without spacings.
   bool isLong (const Triangle& corners) const;
 
   /// Cost of an edge between two triangles: 0 up to an angle of 90 degrees between their normals,
   /// growing beyond; 0 if one of the normals is zero.
   double ofEdge (const Vector3d& unit_normal, const Vector3d& other_unit_normal) const
   {
-    return limits_.fold_cost * std::max (0.0, -unit_normal.dot (other_unit_normal));
+    return FOLD_COST * std::max (0.0, -unit_normal.dot (other_unit_normal));
   }
 
 private:
@@ -80,7 +68,6 @@ private:
   const Positions& positions_;
   const Normals& normals_;
   const std::vector<float>* spacing_; // nullptr: there is none
-  CostLimits limits_;
 };
 
 /// TriangleCost with a cache. A local search needs the costs of a few thousand triangles again and
@@ -90,25 +77,28 @@ class CachedCost
 {
 public:
   explicit CachedCost (const TriangleCost& cost)
-      : cost_ (cost), entries_ (ENTRIES, Entry{{NONE, NONE, NONE}, {Vector3d::Zero (), 0.0}})
+      : cost_ (cost),
+        entries_ (std::size_t{1} << BITS, Entry{{NONE, NONE, NONE}, {Vector3d::Zero (), 0.0}})
   {
   }
 
   const TriangleCost& plain () const { return cost_; }
 
   /// Valid until the next call.
-  const TriangleCost::Value& operator() (Index a, Index b, Index c)
+  const TriangleCost::Value& operator() (const Triangle& triangle)
   {
-    // From the smallest corner.
-    if (b < a && b < c)
-      return find (b, c, a);
-    if (c < a && c < b)
-      return find (c, a, b);
-    return find (a, b, c);
-  }
-  const TriangleCost::Value& operator() (const Triangle& corners)
-  {
-    return (*this) (corners[0], corners[1], corners[2]);
+    const auto [a, b, c] = triangle;
+    const Triangle corners = b < a && b < c   ? Triangle{b, c, a}
+                             : c < a && c < b ? Triangle{c, a, b}
+                                              : Triangle{a, b, c};
+    // Multiplicative hashing; the high bits are the best mixed.
+    const std::uint64_t mixed = corners[0] * 0x9E3779B97F4A7C15ULL +
+                                corners[1] * 0xC2B2AE3D27D4EB4FULL +
+                                corners[2] * 0x165667B19E3779F9ULL;
+    Entry& entry = entries_[mixed >> (64 - BITS)];
+    if (entry.corners != corners)
+      entry = {corners, cost_ (a, b, c)};
+    return entry.value;
   }
 
 private:
@@ -118,21 +108,7 @@ private:
     TriangleCost::Value value;
   };
 
-  const TriangleCost::Value& find (Index a, Index b, Index c)
-  {
-    // Multiplicative hashing; the high bits are the best mixed.
-    const std::uint64_t mixed =
-        a * 0x9E3779B97F4A7C15ULL + b * 0xC2B2AE3D27D4EB4FULL + c * 0x165667B19E3779F9ULL;
-    Entry& entry = entries_[mixed >> (64 - BITS)];
-    if (entry.corners[0] != a || entry.corners[1] != b || entry.corners[2] != c) {
-      entry.corners = {a, b, c};
-      entry.value = cost_.value (a, b, c);
-    }
-    return entry.value;
-  }
-
   static constexpr int BITS = 13;
-  static constexpr std::size_t ENTRIES = std::size_t{1} << BITS;
 
   const TriangleCost& cost_;
   std::vector<Entry> entries_;

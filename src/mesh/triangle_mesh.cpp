@@ -15,22 +15,13 @@ void
 TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 {
   fan_triangles.clear ();
-  const Index start = triangle_of[p];
-  if (start == NONE)
-    return;
-  for (Index t = start; t != NONE;) {
-    fan_triangles.push_back (t);
-    t = neighbors[t][next (sideOf (t, p))];
-    if (t == start)
-      return; // closed
+  std::ptrdiff_t anti_clockwise = 0;
+  for (FanWalk walk (*this, p); walk.triangle () != NONE; walk.advance ()) {
+    fan_triangles.push_back (walk.triangle ());
+    anti_clockwise += walk.isClockwise () ? 0 : 1;
   }
   // At the boundary: the clockwise ones come first.
-  const std::size_t anti_clockwise = fan_triangles.size ();
-  for (Index t = neighbors[start][previous (sideOf (start, p))]; t != NONE;) {
-    fan_triangles.push_back (t);
-    t = neighbors[t][previous (sideOf (t, p))];
-  }
-  const auto middle = fan_triangles.begin () + static_cast<std::ptrdiff_t> (anti_clockwise);
+  const auto middle = fan_triangles.begin () + anti_clockwise;
   std::reverse (middle, fan_triangles.end ());
   std::rotate (fan_triangles.begin (), middle, fan_triangles.end ());
 }
@@ -161,29 +152,27 @@ void
 TriangleMesh::replaceFan (Index p, const std::vector<Index>& fan_triangles,
                           const std::vector<Triangle>& filling)
 {
-  // Each edge of the polygon as (from, to, -), and the edge in the triangle across it.
-  std::vector<std::pair<Triangle, MeshEdge>> across;
-  for (Index t : fan_triangles) {
+  // The ends of each new edge, those of the polygon first, and its mate.
+  std::vector<std::pair<std::array<Index, 2>, MeshEdge>> mates;
+  for (const Index t : fan_triangles) {
     const MeshEdge e{t, sideOf (t, p)};
-    across.push_back ({{from (e), to (e), NONE}, mate (e)});
+    mates.push_back ({{from (e), to (e)}, mate (e)});
   }
-  for (std::size_t i = 0; i < filling.size (); ++i)
-    set (fan_triangles[i], filling[i]);
+  for (std::size_t i = 0; i < filling.size (); ++i) {
+    const Index t = fan_triangles[i];
+    set (t, filling[i]);
+    for (std::uint8_t side = 0; side < 3; ++side)
+      mates.push_back ({{to ({t, side}), from ({t, side})}, {t, side}});
+  }
   for (std::size_t i = 0; i < filling.size (); ++i)
     for (std::uint8_t side = 0; side < 3; ++side) {
       const MeshEdge e{fan_triangles[i], side};
-      const Index a = from (e), b = to (e);
-      setTriangleOf (a, e.triangle);
-      MeshEdge other{NONE, 0};
-      for (const auto& [edge, mate_of_edge] : across)
-        if (edge[0] == a && edge[1] == b)
-          other = mate_of_edge;
-      for (std::size_t j = 0; j < filling.size () && other.triangle == NONE; ++j)
-        for (std::uint8_t other_side = 0; other_side < 3; ++other_side)
-          if (from ({fan_triangles[j], other_side}) == b &&
-              to ({fan_triangles[j], other_side}) == a)
-            other = {fan_triangles[j], other_side};
-      link (e.triangle, side, other);
+      const std::array<Index, 2> ends{from (e), to (e)};
+      setTriangleOf (ends[0], e.triangle);
+      link (e.triangle, side,
+            std::find_if (mates.begin (), mates.end (), [&ends] (const auto& edge) {
+              return edge.first == ends;
+            })->second);
     }
   setTriangleOf (p, NONE);
 }

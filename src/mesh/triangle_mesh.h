@@ -181,6 +181,7 @@ public:
   }
 
   Index triangle () const { return at_; } ///< NONE: no more
+  bool isClockwise () const { return is_clockwise_; }
 
   void advance ()
   {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/trimming.h"
 
-#include "core/csr_lists.h"
 #include "core/parallel.h"
 #include "mesh/self_intersections.h"
 
@@ -76,19 +75,6 @@ coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
   return is_in;
 }
 
-// \return number of triangles cut off
-std::size_t
-cutCrossing (TriangleMesh& mesh, const Points& points, const RunContext& run)
-{
-  const std::size_t before = mesh.triangles.size ();
-  const CrossingPairs pairs = findSelfIntersections (mesh.triangles, points.positions, run);
-  Flags is_cut = coverPairs (before, pairs);
-  for (const Index t : pairs.untested)
-    is_cut[t] = 1;
-  removeTriangles (mesh, is_cut, run);
-  return before - mesh.triangles.size ();
-}
-
 } // namespace
 
 void
@@ -150,8 +136,15 @@ trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& sp
   const std::size_t triangles = mesh.triangles.size ();
   const std::vector<Index> before = mesh.triangle_of;
   cutLongEdges (mesh, points, spacing, options, run);
-  if (options.open_self_intersections)
-    done.crossing = cutCrossing (mesh, points, run);
+  if (options.open_self_intersections) {
+    const std::size_t before_cut = mesh.triangles.size ();
+    const CrossingPairs pairs = findSelfIntersections (mesh.triangles, points.positions, run);
+    Flags is_cut = coverPairs (before_cut, pairs);
+    for (const Index t : pairs.untested)
+      is_cut[t] = 1;
+    removeTriangles (mesh, std::move (is_cut), run);
+    done.crossing = before_cut - mesh.triangles.size ();
+  }
   if (options.minimum_component_size > 0)
     done.components = removeSmallComponents (
         mesh, static_cast<std::size_t> (options.minimum_component_size), run);

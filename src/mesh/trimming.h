@@ -33,10 +33,9 @@ bool
 asksForTrimming (const TrimmingOptions& options);
 
 /// Removes triangles with too long an edge. Then removes crossing triangles until none are left:
-/// those that cross most others first, the first of equal ones. Keeps one fan at each
-/// point, as removeTriangles () does, and removes components of too few points. The mesh stays an
-/// oriented manifold, and may become empty. One thread: 0.2 microseconds per point, plus the time
-/// of findSelfIntersections for crossing triangles.
+/// those that cross most others first, the first of equal ones; then components of too few points.
+/// What is left: see removeTriangles (). One thread: 0.2 microseconds per point, plus the time of
+/// findSelfIntersections for crossing triangles.
 /// \param spacing local spacing of each point
 Trimming
 trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/two_sides.h"
 
-#include "core/exact.h"
-#include "core/geometry.h"
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"
 

@@ -7,10 +7,13 @@ namespace pcl::floater {
 bool
 VertexMover::fillHoleOf (Index v)
 {
-  if (!mesh_.fan (v, fan_, polygon_) || fan_.size () < 3 || fan_.size () > largest_fan_)
+  if (!mesh_.fan (v, fan_, polygon_) || fan_.size () < 3 || fan_.size () > LARGEST_FAN)
     return false;
   filled_ = filling_.fill (
-      polygon_, [this] (Index p, Index q, Index r) { return cost_ (p, q, r).cost; },
+      polygon_,
+      [this] (Index p, Index q, Index r) {
+        return cost_ ({p, q, r}).cost;
+      },
       [this] (Index p, Index q) { return !mesh_.hasEdge (p, q); });
   if (filled_.size () != 1)
     return !filled_.empty ();

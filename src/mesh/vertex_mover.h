@@ -18,15 +18,11 @@ public:
   /// A smaller change of cost may be rounding. An equilateral triangle costs 1.73.
   static constexpr double IMPROVES = 1e-6;
 
-  /// \param neighbors   nearest neighbours of each point
-  /// \param largest_fan triangles; a vertex with more of them is not moved
-  /// \param places      number of neighbours that may be split
+  /// \param neighbors nearest neighbours of each point
   VertexMover (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-               const TriangleCost& cost, std::size_t largest_fan, std::size_t places,
-               const RunContext& run)
-      : mesh_ (mesh), neighbors_ (neighbors), largest_fan_ (largest_fan), cost_ (cost),
-        splitter_ (mesh, positions, splitLimits (places), true), flipper_ (mesh, cost_, run),
-        filling_ (run)
+               const TriangleCost& cost, const RunContext& run)
+      : mesh_ (mesh), neighbors_ (neighbors), cost_ (cost),
+        splitter_ (mesh, positions, PLACES, true), flipper_ (mesh, cost_, run), filling_ (run)
   {
     mesh_.recordChanges ();
   }
@@ -51,19 +47,16 @@ public:
   CachedCost& cost () { return cost_; }
 
 private:
-  static SplitLimits splitLimits (std::size_t places)
-  {
-    SplitLimits limits;
-    limits.near = places;
-    return limits;
-  }
+  // Triangles around a vertex that is moved; 12, 16 and 40 leave about as many flaws. And neighbours
+  // whose fans may be split; so do 4 and 12.
+  static constexpr std::size_t LARGEST_FAN = 24, PLACES = 8;
+
   bool fillHoleOf (Index v);
   void takeOut (Index v);
   void settle (Index v, const Cut& cut);
 
   TriangleMesh& mesh_;
   const CsrLists& neighbors_;
-  std::size_t largest_fan_;
   CachedCost cost_;
   VertexSplitter splitter_;
   EdgeFlipper flipper_;

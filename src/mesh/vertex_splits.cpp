@@ -6,6 +6,19 @@
 #include "points/kd_tree.h"
 
 namespace pcl::floater {
+namespace {
+// Nearest vertices of a point, whose fans may be split. With 3 and 6, folds were a tenth more and fewer,
+// crossing pairs the other way round.
+constexpr std::size_t NEAREST_SPLIT = 4;
+constexpr std::size_t MOST_CUTS = 4096; // tried of a fan, about
+constexpr double FOLD_COST = 30.0; // of a fold, or a flat triangle, in longest edges of the fan
+constexpr double FLAT_SINE = 0.03; // of an angle; below, a triangle is flat
+// Of an edge of the boundary, per length: else fins grow there. One between two points of a stack
+// counts as the longest edge of the fan: else the boundary passes through both.
+constexpr double BOUNDARY_COST = 6.28;
+constexpr double FAR_COST = 10.0; // per length from the point to the vertex that is split
+} // namespace
+
 Vector3d
 VertexSplitter::normalOf (Index t) const
 {
@@ -19,7 +32,7 @@ VertexSplitter::cutsFor (Index p, Row near)
   cuts_.clear ();
   std::size_t count = 0;
   for (const Index v : near)
-    if (mesh_.triangle_of[v] != NONE && count++ < limits_.near)
+    if (mesh_.triangle_of[v] != NONE && count++ < nearest_)
       if (const Cut cut = bestCut (v, p); cut.vertex != NONE)
         cuts_.push_back (cut);
   std::stable_sort (cuts_.begin (), cuts_.end (),
@@ -45,7 +58,7 @@ VertexSplitter::bestCut (Index v, Index p)
     place.length_p = (here - at_p).norm ();
     longest = std::max (longest, place.length_v);
   }
-  const double penalty = limits_.fold * longest;
+  const double penalty = FOLD_COST * longest;
   // Cost of an edge between triangles of these normals; 0 if one of them is zero.
   const auto bend = [penalty] (const Vector3d& a, const Vector3d& b, double length) {
     const double cosine = a.dot (b);
@@ -69,7 +82,7 @@ VertexSplitter::bestCut (Index v, Index p)
       place.normal_p = area.normalized ();
       const double sides = place.length_p * places_[(k + 1) % ring].length_p;
       place.rim = bend (place.normal_p, outer, length) - bend (place.normal_v, outer, length) +
-                  (area.norm () < limits_.flat * sides ? penalty : 0.0);
+                  (area.norm () < FLAT_SINE * sides ? penalty : 0.0);
     }
   }
   for (std::size_t k = 0; k < ring; ++k) {
@@ -81,9 +94,9 @@ VertexSplitter::bestCut (Index v, Index p)
     const Vector3d area = (positions_[fan_.ring[k]] - at_v).cross (offset);
     place.needle = area.normalized ();
     const Vector3d back = -place.needle;
-    const double flat = area.norm () < limits_.flat * place.length_v * gap ? penalty : 0.0;
-    const double rim_v = limits_.boundary * place.length_v;
-    const double rim_p = limits_.boundary * place.length_p;
+    const double flat = area.norm () < FLAT_SINE * place.length_v * gap ? penalty : 0.0;
+    const double rim_v = BOUNDARY_COST * place.length_v;
+    const double rim_p = BOUNDARY_COST * place.length_p;
     place.spoke_v = is_start || is_end ? rim_v : bend (before_v, place.normal_v, place.length_v);
     place.spoke_p = bend (before_p, place.normal_p, place.length_p);
     place.first = flat + (is_start ? rim_v : bend (before_v, place.needle, place.length_v)) +
@@ -111,16 +124,16 @@ VertexSplitter::bestCut (Index v, Index p)
     if (has_end)
       cost += last.last;
     if (has_begin != has_end)
-      cost += limits_.boundary * (longest + (has_begin && from < m ? places_[m].length_p
-                                             : has_end && to > 0   ? places_[0].length_p
-                                                                   : 0.0));
+      cost += BOUNDARY_COST * (longest + (has_begin && from < m ? places_[m].length_p
+                                          : has_end && to > 0   ? places_[0].length_p
+                                                                : 0.0));
     else if (cost < best.cost)
       cost += bend (first.needle, -last.needle, gap);
     if (cost < best.cost)
       best = {cost, v, from, to, has_begin, has_end};
   };
   // Of a huge fan only narrow parts, which take no quadratic time.
-  const std::size_t widest = limits_.most_cuts / m + 1;
+  const std::size_t widest = MOST_CUTS / m + 1;
   for (std::size_t from = 0; from < (is_open ? ring : m); ++from)
     for (std::size_t to = from + 1; to < (is_open ? ring : from + m) && to <= from + widest; ++to)
       consider (from, to, true, true);
@@ -129,7 +142,7 @@ VertexSplitter::bestCut (Index v, Index p)
       consider (k, m, true, false);
       consider (0, k, false, true);
     }
-  best.cost += limits_.far * gap;
+  best.cost += FAR_COST * gap;
   return best;
 }
 
@@ -182,10 +195,10 @@ VertexSplitter::turnSpokes (const Cut& cut, Index p, MeshEdge spoke, std::size_t
 
 std::size_t
 splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector<Index>& added,
-               const SplitLimits& limits, const RunContext& run)
+               const RunContext& run)
 {
   mesh.triangle_of.resize (positions.size (), NONE);
-  VertexSplitter splitter (mesh, positions, limits);
+  VertexSplitter splitter (mesh, positions, NEAREST_SPLIT, false);
   const KdTree tree (positions, run);
   std::vector<Neighbor> found;
   std::vector<Index> near;
@@ -194,7 +207,7 @@ splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector
   for (const Index p : added) {
     progress.next ();
     tree.nearestIf (
-        positions[p], Vector3d::Zero (), KdTree::EVERYWHERE, limits.near,
+        positions[p], Vector3d::Zero (), KdTree::EVERYWHERE, NEAREST_SPLIT,
         [&mesh] (const Neighbor& neighbor, const Vector3d& /*position*/) {
           return mesh.triangle_of[neighbor.point] != NONE;
         },
@@ -214,14 +227,14 @@ splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector
 
 std::size_t
 addMissingPoints (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-                  const SplitLimits& limits, const RunContext& run)
+                  const RunContext& run)
 {
   std::vector<Index> missing;
   for (Index p = 0; p < mesh.triangle_of.size (); ++p)
     if (mesh.triangle_of[p] == NONE)
       missing.push_back (p);
   const std::size_t all = missing.size ();
-  VertexSplitter splitter (mesh, positions, limits);
+  VertexSplitter splitter (mesh, positions, NEAREST_SPLIT, false);
   ProgressLoop progress (run);
   // Forwards and backwards along the curve: a point may be beside others that are missing.
   for (std::size_t before = all + 1; missing.size () < before;) {

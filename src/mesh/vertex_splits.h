@@ -8,25 +8,6 @@
 #include "mesh/triangle_mesh.h"
 
 namespace pcl::floater {
-/// Costs of a mesh that points join, each a length. Its bending is the sum over its edges of length
-/// times angle between the triangles: bounded for needles. The other costs were chosen by hand, on
-/// points that lie on one another; without one of them, crossing triangles or folds became many
-/// times as many.
-struct SplitLimits
-{
-  std::size_t near =
-      4; ///< nearest vertices of a point, whose fans may be split. With 3 and 6, folds
-         ///< were a tenth more and fewer, crossing pairs the other way round
-  std::size_t most_cuts = 4096; ///< tried of a fan, about
-  double fold = 30.0;           ///< of a fold, or a triangle without area, in longest edges of
-                                ///< the fan
-  double flat = 0.03;           ///< sine of an angle; below, a triangle has no area
-  double boundary = 6.28;       ///< of an edge of the boundary, per length: else fins grow there.
-                                ///< One between two points of a stack counts as the longest edge
-                                ///< of the fan: else the boundary passes through both
-  double far = 10.0;            ///< per length from the point to the vertex that is split
-};
-
 /// A part of the fan around a vertex, from one place of the ring around it to another. A new point
 /// takes it over.
 struct Cut
@@ -41,19 +22,24 @@ struct Cut
 /// Splits vertices. A split cuts the fan of a vertex along two edges, or one at the boundary, gives a
 /// new point a part of it, and closes the cuts by triangles with both points (the inverse of an edge
 /// collapse: Hoppe 1996). So neither manifold nor topology nor orientation can change.
+///
+/// The costs of a mesh are lengths. Its bending is the sum over its edges of length times angle
+/// between the triangles: bounded for needles. The other costs were chosen by hand, on points that
+/// lie on one another; without one of them, crossing triangles or folds became many times as many.
 class VertexSplitter
 {
 public:
   /// \param positions      must outlive this, as must the mesh
+  /// \param nearest        number of vertices whose fans may be split
   /// \param keeps_boundary true: no cut lets the boundary pass through the new point
-  VertexSplitter (TriangleMesh& mesh, const Positions& positions, const SplitLimits& limits,
-                  bool keeps_boundary = false)
-      : mesh_ (mesh), positions_ (positions), limits_ (limits), keeps_boundary_ (keeps_boundary)
+  VertexSplitter (TriangleMesh& mesh, const Positions& positions, std::size_t nearest,
+                  bool keeps_boundary)
+      : mesh_ (mesh), positions_ (positions), nearest_ (nearest), keeps_boundary_ (keeps_boundary)
   {
   }
 
-  /// The cheapest cut for a point at each of the first vertices in a row: at most SplitLimits::near,
-  /// the cheapest first. Valid until the next call. O(f^2) for fans of f triangles.
+  /// The cheapest cut for a point at each of the first vertices in a row, the cheapest first. Valid
+  /// until the next call. O(f^2) for fans of f triangles.
   const std::vector<Cut>& cutsFor (Index p, Row near);
 
   /// Gives a point its part, in the state of the mesh when the cut was found. Appends triangles.
@@ -94,7 +80,7 @@ private:
 
   TriangleMesh& mesh_;
   const Positions& positions_;
-  SplitLimits limits_;
+  std::size_t nearest_;
   bool keeps_boundary_;
   Fan fan_;
   std::vector<Place> places_;                      // of the fan
@@ -103,13 +89,12 @@ private:
 };
 
 /// Adds points to a mesh: each, in the given order, by the cheapest split of one of the nearest
-/// vertices. One thread, O(log n) for each point, about 6
-/// microseconds.
+/// vertices. One thread, O(log n) for each point, about 6 microseconds.
 /// \param added points without triangles
 /// \return number of points added
 std::size_t
 splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector<Index>& added,
-               const SplitLimits& limits, const RunContext& run);
+               const RunContext& run);
 
 /// Adds all points without triangles in the same way, each beside its nearest neighbours that have
 /// some, if there are any. One thread, about 6 microseconds for each point.
@@ -117,6 +102,6 @@ splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector
 /// \return number of points added
 std::size_t
 addMissingPoints (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-                  const SplitLimits& limits, const RunContext& run);
+                  const RunContext& run);
 
 } // namespace pcl::floater

@@ -40,15 +40,10 @@ VertexStars::VertexStars (const std::vector<Triangle>& triangles, const Triangle
   std::partial_sum (begins_.begin (), begins_.end (), begins_.begin ());
   wedges_.resize (begins_.back ());
   // begins_[p + 1] is the index of the next entry of p; at the end, the end of p.
-  for (const Index t : ranges.of (r)) {
-    const auto [a, b, c] = triangles[t];
-    if (isHere (a))
-      wedges_[begins_[a - first_ + 1]++] = {t, b, c};
-    if (isHere (b))
-      wedges_[begins_[b - first_ + 1]++] = {t, c, a};
-    if (isHere (c))
-      wedges_[begins_[c - first_ + 1]++] = {t, a, b};
-  }
+  for (const Index t : ranges.of (r))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const Triangle& c = triangles[t]; isHere (c[i]))
+        wedges_[begins_[c[i] - first_ + 1]++] = {t, c[(i + 1) % 3], c[(i + 2) % 3]};
   begins_.pop_back ();
 }
 

@@ -42,7 +42,6 @@ public:
                   const RunContext& run);
 
   std::size_t count () const { return lists_.rows (); }
-  std::size_t points () const { return points_; }
   std::size_t firstPoint (std::size_t r) const { return r * LENGTH; }
   std::size_t lastPoint (std::size_t r) const { return std::min (points_, (r + 1) * LENGTH); }
 
@@ -65,16 +64,7 @@ struct Wedge
 };
 
 /// The triangles around one point, ascending.
-struct VertexStar
-{
-  const Wedge* first;
-  const Wedge* last;
-
-  const Wedge* begin () const { return first; }
-  const Wedge* end () const { return last; }
-  std::size_t size () const { return static_cast<std::size_t> (last - first); }
-  const Wedge& operator[] (std::size_t i) const { return first[i]; }
-};
+using VertexStar = Span<Wedge>;
 
 /// The stars of the points of one range. 12 bytes per corner in the range.
 class VertexStars

@@ -42,104 +42,89 @@ findPatches (const TriangleMesh& mesh, const std::vector<Index>& frame, Place& p
   });
 }
 
-class ZoneSplicing
+// Of each triangle, the zone that it goes for; or NONE. Of zones that have grown towards each other, the
+// first ones are taken.
+std::vector<Index>
+zonesOf (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made)
 {
-public:
-  // Of zones that have grown towards each other, the first ones are taken.
-  ZoneSplicing (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made)
-      : mesh_ (mesh), made_ (made), zone_of_ (mesh.triangles.size (), NONE)
-  {
-    std::vector<Index> zone_at (mesh.triangle_of.size (), NONE), gone, fan;
-    for (Index zone = 0; zone < made.size (); ++zone) {
-      if (!made[zone])
-        continue;
-      gone.clear ();
-      for (const Index p : made[zone]->points) {
-        mesh.fan (p, fan);
-        gone.insert (gone.end (), fan.begin (), fan.end ());
-      }
-      const auto isTaken = [&] (Index t) {
-        return anyCorner (mesh.triangles[t],
-                          [&] (Index p) { return zone_at[p] != NONE && zone_at[p] != zone; });
-      };
-      if (std::any_of (gone.begin (), gone.end (), isTaken)) {
-        made[zone].reset ();
-        continue;
-      }
-      for (const Index t : gone) {
-        zone_of_[t] = zone;
-        for (const Index p : mesh.triangles[t])
-          zone_at[p] = zone;
-      }
+  std::vector<Index> zone_of (mesh.triangles.size (), NONE);
+  std::vector<Index> zone_at (mesh.triangle_of.size (), NONE), gone, fan;
+  for (Index zone = 0; zone < made.size (); ++zone) {
+    if (!made[zone])
+      continue;
+    gone.clear ();
+    for (const Index p : made[zone]->points) {
+      mesh.fan (p, fan);
+      gone.insert (gone.end (), fan.begin (), fan.end ());
+    }
+    const auto isTaken = [&] (Index t) {
+      return anyCorner (mesh.triangles[t],
+                        [&] (Index p) { return zone_at[p] != NONE && zone_at[p] != zone; });
+    };
+    if (std::any_of (gone.begin (), gone.end (), isTaken)) {
+      made[zone].reset ();
+      continue;
+    }
+    for (const Index t : gone) {
+      zone_of[t] = zone;
+      for (const Index p : mesh.triangles[t])
+        zone_at[p] = zone;
     }
   }
-
-  std::vector<Triangle> splice ()
-  {
-    const bool turns = std::any_of (made_.begin (), made_.end (), [] (const auto& zone) {
-      return zone && std::any_of (zone->patches.begin (), zone->patches.end (),
-                                  [] (const PatchSide& patch) { return patch.is_turned; });
-    });
-    is_turned_.assign (mesh_.triangles.size () + made_.size (), 0);
-    while (turns && !turnPatches ())
-      ;
-    std::vector<Triangle> triangles;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t)
-      if (stays (t))
-        triangles.push_back (turnedIf (is_turned_[t] != 0, mesh_.triangles[t]));
-    for (std::size_t zone = 0; zone < made_.size (); ++zone)
-      if (made_[zone])
-        for (const Triangle& t : made_[zone]->triangles)
-          triangles.push_back (turnedIf (is_turned_[mesh_.triangles.size () + zone] != 0, t));
-    return triangles;
-  }
-
-private:
-  bool stays (Index t) const { return zone_of_[t] == NONE || !made_[zone_of_[t]]; }
-
-  // Decides which triangles and zones are turned. If the sides of a zone contradict others, that
-  // zone stays as it was, and the result is false.
-  bool turnPatches ()
-  {
-    const std::size_t triangles = mesh_.triangles.size ();
-    SignedSets sets (triangles + made_.size ());
-    for (Index t = 0; t < triangles; ++t)
-      for (const Index u : mesh_.neighbors[t])
-        if (u != NONE && u < t && stays (t) && stays (u))
-          sets.join (t, u, false);
-    for (std::size_t zone = 0; zone < made_.size (); ++zone)
-      if (made_[zone])
-        for (const PatchSide& patch : made_[zone]->patches)
-          if (!sets.join (static_cast<Index> (triangles + zone), patch.triangle, patch.is_turned)) {
-            made_[zone].reset ();
-            return false;
-          }
-    // The side of most triangles stays the front.
-    std::vector<std::array<std::size_t, 2>> votes (is_turned_.size ());
-    for (Index t = 0; t < triangles; ++t)
-      if (stays (t)) {
-        const SignedSets::Place at = sets.find (t);
-        ++votes[at.root][at.flipped ? 1 : 0];
-      }
-    for (Index i = 0; i < is_turned_.size (); ++i) {
-      const SignedSets::Place at = sets.find (i);
-      is_turned_[i] = at.flipped != (votes[at.root][1] > votes[at.root][0]) ? 1 : 0;
-    }
-    return true;
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<std::optional<NewZone>>& made_;
-  std::vector<Index> zone_of_; // of each triangle, NONE if it has no free corner
-  Flags is_turned_;            // of each triangle, and then of each zone
-};
+  return zone_of;
+}
 
 } // namespace
 
 std::vector<Triangle>
 spliceZones (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made)
 {
-  return ZoneSplicing (mesh, made).splice ();
+  const std::size_t all = mesh.triangles.size ();
+  const std::vector<Index> zone_of = zonesOf (mesh, made);
+  const auto stays = [&] (Index t) { return zone_of[t] == NONE || !made[zone_of[t]]; };
+  Flags is_turned (all + made.size (), 0); // of each triangle, and then of each zone
+  // If the sides of a zone contradict others, that zone stays as it was, and the result is false.
+  const auto turnPatches = [&] {
+    SignedSets sets (is_turned.size ());
+    for (Index t = 0; t < all; ++t)
+      for (const Index u : mesh.neighbors[t])
+        if (u != NONE && u < t && stays (t) && stays (u))
+          sets.join (t, u, false);
+    for (std::size_t zone = 0; zone < made.size (); ++zone)
+      if (made[zone])
+        for (const auto& [triangle, is_against] : made[zone]->patches)
+          if (!sets.join (static_cast<Index> (all + zone), triangle, is_against)) {
+            made[zone].reset ();
+            return false;
+          }
+    // The side of most triangles stays the front.
+    std::vector<std::array<std::size_t, 2>> votes (is_turned.size ());
+    for (Index t = 0; t < all; ++t)
+      if (stays (t)) {
+        const SignedSets::Place at = sets.find (t);
+        ++votes[at.root][at.flipped ? 1 : 0];
+      }
+    for (Index i = 0; i < is_turned.size (); ++i) {
+      const SignedSets::Place at = sets.find (i);
+      is_turned[i] = at.flipped != (votes[at.root][1] > votes[at.root][0]) ? 1 : 0;
+    }
+    return true;
+  };
+  const bool turns = std::any_of (made.begin (), made.end (), [] (const auto& zone) {
+    return zone && std::any_of (zone->patches.begin (), zone->patches.end (),
+                                [] (const auto& patch) { return patch.second; });
+  });
+  while (turns && !turnPatches ())
+    ;
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < all; ++t)
+    if (stays (t))
+      triangles.push_back (turnedIf (is_turned[t] != 0, mesh.triangles[t]));
+  for (std::size_t zone = 0; zone < made.size (); ++zone)
+    if (made[zone])
+      for (const Triangle& t : made[zone]->triangles)
+        triangles.push_back (turnedIf (is_turned[all + zone] != 0, t));
+  return triangles;
 }
 
 PlaceOfMesh
@@ -166,11 +151,10 @@ placeOf (Row free, const TriangleMesh& mesh, const Positions& positions, const C
     for (const Index t : fan) {
       const Triangle& c = mesh.triangles[t];
       const Triangle local{inPlace (c[0]), inPlace (c[1]), inPlace (c[2])};
-      const bool goes = std::any_of (local.begin (), local.end (),
-                                     [&] (Index p) { return p != NONE && place.is_free[p] != 0; });
-      const bool stays =
-          !goes && *std::max_element (local.begin (), local.end ()) != NONE &&
-          std::none_of (c.begin (), c.end (), [&] (Index p) { return zones.is_free[p] != 0; });
+      const bool goes =
+          anyCorner (local, [&] (Index p) { return p != NONE && place.is_free[p] != 0; });
+      const bool stays = !goes && !isCorner (local, NONE) &&
+                         !anyCorner (c, [&] (Index p) { return zones.is_free[p] != 0; });
       if (goes && place.is_free[i] == 0)
         place.is_rim[i] = 1;
       if (!goes && !stays)

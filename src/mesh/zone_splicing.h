@@ -7,19 +7,13 @@
 #include "mesh/two_sides.h"
 
 namespace pcl::floater {
-/// A patch of the frame of a zone, by one of its triangles.
-struct PatchSide
-{
-  Index triangle; ///< of the mesh
-  bool is_turned; ///< against the new triangles
-};
-
 /// A zone made anew.
 struct NewZone
 {
   std::vector<Index> points; ///< whose triangles go
   std::vector<Triangle> triangles;
-  std::vector<PatchSide> patches;
+  std::vector<std::pair<Index, bool>> patches; ///< of the frame: a triangle of the mesh in it, and
+                                               ///< whether it is turned against the new ones
 };
 
 /// The triangles of the mesh with new zones, turned so that neighbours face one side; where sides

@@ -11,7 +11,7 @@
 namespace pcl::floater {
 struct Limits
 {
-  SurfaceLimits surface;
+  RepairLimits repair;
   ViewLimits view;
 };
 

@@ -146,7 +146,7 @@ takeAlongCurve (const Positions& positions, const std::vector<Index>& cloud_inde
       return code_of_a < code_of_b;
     return std::lexicographical_compare (a.begin (), a.end (), b.begin (), b.end ());
   };
-  sortInParallel (keys, isLess, run);
+  sortInParallel (keys.begin (), keys.end (), isLess, run);
   points.positions.resize (keys.size ());
   points.cloud_index.resize (keys.size ());
   for (std::size_t first = 0; first < positions.size (); first += PART)

@@ -212,7 +212,7 @@ struct StepFinder
     const auto isNearer = [] (const StepEdge& a, const StepEdge& b) {
       return a.depth != b.depth ? a.depth < b.depth : numberOf (a.edge) < numberOf (b.edge);
     };
-    sortInParallel (edges, isNearer, run);
+    sortInParallel (edges.begin (), edges.end (), isNearer, run);
   }
 
   // Change of the inverse depth for a relative change of depth.

@@ -143,7 +143,7 @@ flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions, co
     for (const Index t : tested)
       is_tested[t] = 0;
     std::vector<Flip> found = ranges.join ();
-    sortInParallel (found, std::less<> (), run);
+    sortInParallel (found.begin (), found.end (), std::less<> (), run);
     std::vector<Index> changed;
     for (const auto& [change, t, side] : found) {
       const MeshEdge e{t, side};

@@ -16,20 +16,19 @@ std::size_t
 closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
             const Viewpoint& viewpoint, const ViewSettings& settings, const RunContext& run)
 {
-  const MeshComponents components = findComponents (mesh, run);
   std::vector<BoundaryLoop> loops =
-      findBoundaryLoops (mesh, components, points.positions, spacing, run);
+      findBoundaryLoops (mesh, findComponents (mesh, run), points.positions, spacing, run);
   // No point lies beyond any of them: the longest are kept.
   for (BoundaryLoop& loop : loops)
     loop.judgement.empty_length = loop.length;
-  chooseOpenLoops (loops, components.count, settings.options.holes, 1.0 / points.scale);
+  chooseOpenLoops (loops, settings.options.holes, 1.0 / points.scale);
   Normals normals;
   normals.reserve (points.size ());
   for (const Vector3d& position : points.positions) {
     const Vector3d ray = viewpoint.is_far ? viewpoint.place : Vector3d (position - viewpoint.place);
     normals.emplace_back (-ray.normalized ().cast<float> ());
   }
-  const TriangleCost cost (points.positions, normals, nullptr, settings.surface.finish.cost);
+  const TriangleCost cost (points.positions, normals);
   return fillHoles (mesh, loops, points.positions, cost, run);
 }
 
@@ -66,8 +65,8 @@ dropShortSteps (const TriangleMesh& mesh, const Flags& is_gap, std::size_t short
 
 // The front of each component: towards the sensor, unless it is far away.
 MeshFacing
-faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint,
-            const FinishLimits& finish, FacingHints hints, const RunContext& run)
+faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint, FacingHints hints,
+            const RunContext& run)
 {
   hints.is_one_view = viewpoint.is_far;
   hints.faces_sensor = !viewpoint.is_far;
@@ -77,7 +76,7 @@ faceInView (TriangleMesh& mesh, const Points& points, const Viewpoint& viewpoint
   else if (hints.wanted != Facing::VIEWPOINT)
     hints.sensor.reset ();
   if (!by_view || viewpoint.is_far || boundaryEdges (mesh).empty ())
-    return faceOutwards (mesh, points.positions, hints, finish.facing, run);
+    return faceOutwards (mesh, points.positions, hints, run);
   MeshFacing facing; // oriented like the view
   FacingObject& all = facing.objects.emplace_back ();
   all.rule = FacingRule::SENSOR;
@@ -130,7 +129,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   // smallest corner; sorted by this and the next one, so along the curve of the points.
   for (Triangle& t : mesh.triangles)
     std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
-  sortInParallel (mesh.triangles, std::less<> (), run);
+  sortInParallel (mesh.triangles.begin (), mesh.triangles.end (), std::less<> (), run);
   mesh.connect (points.size (), run);
 
   run.beginStage (Stage::HOLES);
@@ -160,8 +159,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
     removeSmallComponents (mesh, SMALLEST_PART, run);
   if (settings.options.holes.policy != HolePolicy::AUTO)
     surface.holes_filled = closeHoles (mesh, points, surface.spacing, viewpoint, settings, run);
-  surface.finish.facing =
-      faceInView (mesh, points, viewpoint, settings.surface.finish, std::move (hints), run);
+  surface.finish.facing = faceInView (mesh, points, viewpoint, std::move (hints), run);
   return surface;
 }
 

@@ -25,7 +25,6 @@ struct ViewSettings
 {
   const Options& options;
   const ViewLimits& limits;
-  const SurfaceLimits& surface; ///< for policies of holes other than AUTO, and closed components
 };
 
 /// Whether a cloud was seen from a place.

@@ -17,7 +17,7 @@ LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size)
   // With sanitizers a test of two triangles takes some ten times as long. The usual limit, which
   // lets a small mesh take a second, would leave three runs a minute.
   Limits limits;
-  limits.surface.finish.repair.fewest_tests = 20'000;
+  limits.repair.fewest_tests = 20'000;
   const std::string fault =
       fuzz::findFault (attack.input, reconstruct (attack.input, attack.options, limits));
   if (fault.empty ())

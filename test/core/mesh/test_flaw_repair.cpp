@@ -21,7 +21,6 @@ using namespace samples;
 
 constexpr Index GRID_SIDE = 9; // points along a grid
 constexpr Index SHEET_POINTS = GRID_SIDE * GRID_SIDE;
-constexpr std::size_t LARGEST_FAN = RepairLimits{}.largest_fan;
 
 // A jittered square grid with spacing 1.
 Mesh
@@ -66,12 +65,12 @@ struct Sheets : TwoSheets
   double costOfMesh () const
   {
     const auto normalOf = [this] (const Triangle& t) {
-      return cost.value (t[0], t[1], t[2]).unit_normal;
+      return cost (t[0], t[1], t[2]).unit_normal;
     };
     double sum = 0.0;
     for (Index t = 0; t < mesh.triangles.size (); ++t) {
       const Triangle& corners = mesh.triangles[t];
-      sum += cost (corners[0], corners[1], corners[2]);
+      sum += cost (corners[0], corners[1], corners[2]).cost;
       for (Index u : mesh.neighbors[t])
         if (u != NONE && t < u)
           sum += cost.ofEdge (normalOf (corners), normalOf (mesh.triangles[u]));
@@ -99,7 +98,7 @@ TEST (FlawRepair, ChangesAreConsistentAndAreUndoneWithoutATrace)
     p.z () += 0.3 * random.normal ();
   TriangleMesh& mesh = sheets.mesh;
   const TriangleMesh before = mesh;
-  VertexMover mover (mesh, sheets.positions, sheets.neighbors, sheets.cost, LARGEST_FAN, 8, 1);
+  VertexMover mover (mesh, sheets.positions, sheets.neighbors, sheets.cost, 1);
   const auto isChangedAndUndone = [&] {
     expectConsistent (mesh);
     const bool is_changed = mesh.triangles != before.triangles;
@@ -355,9 +354,7 @@ TEST (MissingPoints, AllJoin)
     }
   }
   TriangleMesh mesh = triangulatePlane (uv, loop);
-  const auto add = [&] {
-    return addMissingPoints (mesh, points.positions, geometry.neighbors, {}, 1);
-  };
+  const auto add = [&] { return addMissingPoints (mesh, points.positions, geometry.neighbors, 1); };
   EXPECT_EQ (add (), missing);
   expectDisc (mesh, points.size ());
   EXPECT_EQ (add (), 0U);

@@ -60,7 +60,7 @@ using Indices = std::vector<std::size_t>;
 Indices
 kept (std::vector<BoundaryLoop> loops, const HoleOptions& holes, double unit = 1.0)
 {
-  chooseOpenLoops (loops, 2, holes, unit);
+  chooseOpenLoops (loops, holes, unit);
   Indices indices;
   for (std::size_t i = 0; i < loops.size (); ++i)
     if (loops[i].keep_open)
@@ -130,8 +130,7 @@ struct TriangularSheet
   std::vector<Eigen::Vector3d> positions;
   TriangleMesh mesh;
   std::vector<BoundaryLoop> loops; // first that of the hole
-  CsrLists neighbors;              // those that share an edge
-  std::vector<Eigen::Vector3f> normals;
+  LocalGeometry geometry;          // neighbours share an edge
 
   TriangularSheet (Index half, double inside)
   {
@@ -149,8 +148,8 @@ struct TriangularSheet
     EXPECT_EQ (loops.size (), 2U);
     if (loops.size () == 2 && loops[1].length < loops[0].length)
       std::swap (loops[0], loops[1]);
-    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    neighbors = makeCsrLists (positions.size (), [&] (auto&& emit) {
+    geometry.stars.normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
+    geometry.neighbors = makeCsrLists (positions.size (), [&] (auto&& emit) {
       for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
           emit (t[k], t[(k + 1) % 3]);
@@ -159,10 +158,7 @@ struct TriangularSheet
     });
   }
 
-  std::vector<LoopEvidence> evidence ()
-  {
-    return judgeLoops (mesh, loops, positions, neighbors, normals, 1);
-  }
+  std::vector<LoopEvidence> evidence () { return judgeLoops (mesh, loops, positions, geometry, 1); }
 };
 
 TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
@@ -247,11 +243,11 @@ TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
   EXPECT_EQ (sheet.evidence ()[1].open_share, 1.0);
   for (std::size_t p = 0; p < count; ++p) {
     sheet.positions.push_back (1.2 * sheet.positions[p]);
-    sheet.normals.push_back (Eigen::Vector3f::UnitX ());
+    sheet.geometry.stars.normals.push_back (Eigen::Vector3f::UnitX ());
   }
   sheet.mesh.triangle_of.resize (2 * count, NONE);
-  const CsrLists own = sheet.neighbors;
-  sheet.neighbors = makeCsrLists (2 * count, [&] (auto&& emit) {
+  const CsrLists own = sheet.geometry.neighbors;
+  sheet.geometry.neighbors = makeCsrLists (2 * count, [&] (auto&& emit) {
     for (std::size_t p = 0; p < count; ++p) {
       for (const Index q : own.row (p))
         emit (p, q);
@@ -261,7 +257,7 @@ TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
   EXPECT_EQ (sheet.evidence ()[1].open_share, 1.0);
   EXPECT_LT (sheet.evidence ()[1].empty_share, 0.5);
   for (std::size_t p = count; p < 2 * count; ++p)
-    sheet.normals[p] = Eigen::Vector3f::UnitZ ();
+    sheet.geometry.stars.normals[p] = Eigen::Vector3f::UnitZ ();
   EXPECT_LT (sheet.evidence ()[1].open_share, 0.5);
 }
 

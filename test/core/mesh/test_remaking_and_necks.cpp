@@ -91,8 +91,7 @@ TEST (Remaking, FindsWhatDoesNotFitBeyondTheRim)
 struct Spheres
 {
   Positions positions;
-  CsrLists neighbors;
-  std::vector<float> spacing;
+  LocalGeometry geometry;
   TriangleMesh mesh;
 
   explicit Spheres (double gap, std::size_t points = 400, bool along_curve = false)
@@ -108,8 +107,8 @@ struct Spheres
       append (both, {one, remakePlace (placeOf (one), 1).triangles});
     positions = both.positions;
     mesh = connected (both);
-    neighbors = nearestOf (positions, 20);
-    spacing.assign (positions.size (), 3.4F / std::sqrt (static_cast<float> (points)));
+    geometry.neighbors = nearestOf (positions, 20);
+    geometry.spacing.assign (positions.size (), 3.4F / std::sqrt (static_cast<float> (points)));
   }
 
   CrossingPairs crossing () const { return findSelfIntersections (mesh.triangles, positions, 1); }
@@ -118,7 +117,7 @@ struct Spheres
   {
     CrossingPairs pairs = crossing ();
     RemadeZones remade;
-    remakeZones (mesh, positions, neighbors, spacing, pairs, 3, remade, true, 2);
+    remakeZones (mesh, positions, geometry, pairs, 3, remade, true, 2);
     EXPECT_EQ (pairs, crossing ());
     return remade;
   }
@@ -197,8 +196,8 @@ TEST (Remaking, LeavesOutIslands)
   for (int k = 0; k < 3; ++k)
     spheres.positions.push_back (below + 0.05 * Eigen::Vector3d::Unit (k));
   ASSERT_TRUE (spheres.mesh.connect (spheres.positions.size (), 1));
-  spheres.neighbors = nearestOf (spheres.positions, 20);
-  spheres.spacing.resize (spheres.positions.size (), spheres.spacing[0]);
+  spheres.geometry.neighbors = nearestOf (spheres.positions, 20);
+  spheres.geometry.spacing.resize (spheres.positions.size (), spheres.geometry.spacing[0]);
   spheres.expectCured ();
 }
 
@@ -207,9 +206,10 @@ TEST (Remaking, KeepsOpenings)
 {
   const auto zones = [] (Index around) {
     const Mesh ring = annulus (around);
-    return findDisturbedZones (connected (ring), ring.positions, nearestOf (ring.positions, 20),
-                               std::vector<float> (ring.positions.size (), 0.2F), {}, 3, false,
-                               true, 1)
+    LocalGeometry geometry;
+    geometry.neighbors = nearestOf (ring.positions, 20);
+    geometry.spacing.assign (ring.positions.size (), 0.2F);
+    return findDisturbedZones (connected (ring), ring.positions, geometry, {}, 3, false, true, 1)
         .points.rows ();
   };
   EXPECT_EQ (zones (12), 0U);

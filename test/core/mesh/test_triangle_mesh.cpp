@@ -61,7 +61,7 @@ expectSplits (Mesh mesh, const Positions& points)
     added.push_back (static_cast<Index> (mesh.positions.size ()));
     mesh.positions.push_back (p);
   }
-  EXPECT_EQ (splitVertices (result, mesh.positions, added, {}, 1), points.size ());
+  EXPECT_EQ (splitVertices (result, mesh.positions, added, 1), points.size ());
   expectConsistent (result);
   expectTopology (result.triangles, before.vertices + points.size (), before.components,
                   before.euler, before.loops.size ());
@@ -179,7 +179,7 @@ TEST (Facing, EveryFormFacesOneWayWhateverItDidBefore)
       if (is_turned)
         turnRound (given);
       TriangleMesh mesh = connected (given);
-      EXPECT_EQ (faceOutwards (mesh, form.positions, {}, {}, 1).turned, is_turned ? 1U : 0U);
+      EXPECT_EQ (faceOutwards (mesh, form.positions, {}, 1).turned, is_turned ? 1U : 0U);
       EXPECT_TRUE (mesh.triangles == form.triangles);
       expectConsistent (mesh);
     }
@@ -203,7 +203,7 @@ TEST (Facing, GeneratedSurfacesFaceAsTheyShould)
         if (is_turned[components.of_triangle[t]] != 0)
           std::swap (mesh.triangles[t][1], mesh.triangles[t][2]);
       mesh.connect (one.positions.size (), 1);
-      faceOutwards (mesh, one.positions, {}, {}, 1);
+      faceOutwards (mesh, one.positions, {}, 1);
       EXPECT_TRUE (mesh.triangles == one.triangles);
       expectConsistent (mesh);
     }
@@ -213,7 +213,7 @@ MeshFacing
 faced (const Mesh& one, const FacingHints& hints = {})
 {
   TriangleMesh mesh = connected (one);
-  return faceOutwards (mesh, one.positions, hints, {}, 1);
+  return faceOutwards (mesh, one.positions, hints, 1);
 }
 
 // Of a cap that is a share f of its sphere, the front sees all of the outside, the back 1 - f, and
