@@ -48,52 +48,6 @@ summaryOf (const BoundaryLoop& loop, const Points& points)
 }
 
 namespace {
-// Length of an edge in local spacings, and its ends, the smaller one first.
-struct LongEdge
-{
-  double sqr_length = 0.0;
-  std::pair<Index, Index> at{};
-
-  void take (const LongEdge& other)
-  {
-    if (other.sqr_length > sqr_length)
-      *this = other;
-  }
-};
-
-// Number of some flaws, and the smallest point of one, NONE if there is none.
-struct Flaws
-{
-  std::size_t count = 0;
-  Index at = NONE;
-
-  void add (const Flaws& more)
-  {
-    count += more.count;
-    at = std::min (at, more.at);
-  }
-};
-
-// What is found at a range of triangles. Edges belong to the smaller triangle.
-struct Figures
-{
-  std::size_t edges = 0, bent = 0;
-  Flaws broken, folds, degenerate, long_edges;
-  LongEdge longest, longest_inside;
-
-  void add (const Figures& more)
-  {
-    edges += more.edges;
-    bent += more.bent;
-    broken.add (more.broken);
-    folds.add (more.folds);
-    degenerate.add (more.degenerate);
-    long_edges.add (more.long_edges);
-    longest.take (more.longest);
-    longest_inside.take (more.longest_inside);
-  }
-};
-
 bool
 isDegenerate (const Vector3d& a, const Vector3d& b, const Vector3d& c, double precision,
               double flat_height)
@@ -165,14 +119,14 @@ sumOver (std::size_t count, const RunContext& run, const Body& body)
 }
 
 // Points whose triangles are not one fan.
-Flaws
+FlawCount
 findSeveralFans (const TriangleMesh& mesh, const RunContext& run)
 {
   std::vector<Index> corners (mesh.triangle_of.size (), 0);
   for (const Triangle& t : mesh.triangles)
     for (const Index p : t)
       ++corners[p];
-  return sumOver<Flaws> (corners.size (), run, [&] (Index p, Flaws& found) {
+  return sumOver<FlawCount> (corners.size (), run, [&] (Index p, FlawCount& found) {
     Index in_fan = 0;
     for (FanWalk walk (mesh, p); walk.triangle () != NONE && in_fan <= corners[p]; walk.advance ())
       ++in_fan;
@@ -212,7 +166,7 @@ addComponentsAndLoops (const TriangleMesh& mesh, const Points& points,
   for (auto& [summary, loop] : loops) {
     if (loop.points.size () == 2) { // an edge of two triangles that do not know each other
       ++check.nonmanifold_edges;
-      found.broken_at = std::min (found.broken_at, loop.points.front ());
+      found.figures.broken.add ({1, loop.points.front ()});
     }
     check.loops.push_back (summary);
     found.loops.push_back (std::move (loop));
@@ -241,27 +195,18 @@ checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<flo
     for (std::uint8_t side = 0; side < 3; ++side)
       lookAtEdge ({t, side}, mesh, positions, spacing, limits.long_edge, range);
   };
-  const auto figures = sumOver<Figures> (mesh.triangles.size (), run, look);
   MeshExamination found;
+  found.figures = sumOver<Figures> (mesh.triangles.size (), run, look);
+  Figures& figures = found.figures;
   MeshCheck& check = found.check;
   check.done = true;
   check.nonmanifold_edges = figures.broken.count;
-  Flaws broken = figures.broken;
-  if (broken.count == 0) {
-    const Flaws several = findSeveralFans (mesh, run);
-    check.nonmanifold_vertices = several.count;
-    broken.add (several);
+  if (figures.broken.count == 0) {
+    figures.broken = findSeveralFans (mesh, run);
+    check.nonmanifold_vertices = figures.broken.count;
   }
-  found.broken_at = broken.at;
-  found.bent_share = static_cast<double> (figures.bent) /
-                     static_cast<double> (std::max<std::size_t> (1, figures.edges));
   check.folds = figures.folds.count;
-  found.fold_at = figures.folds.at;
   check.degenerate_triangles = figures.degenerate.count;
-  found.degenerate_at = figures.degenerate.at;
-  found.long_edges = figures.long_edges.count;
-  found.longest_inside = std::sqrt (figures.longest_inside.sqr_length);
-  found.longest_inside_at = figures.longest_inside.at;
   check.longest_edge = std::sqrt (figures.longest.sqr_length);
   if (figures.longest.sqr_length > 0.0)
     check.longest_edge_at = {points.cloud_index[figures.longest.at.first],
@@ -272,7 +217,7 @@ checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<flo
   check.euler_characteristic = static_cast<std::int64_t> (points.size () - found.unused.size ()) -
                                static_cast<std::int64_t> (figures.edges) +
                                static_cast<std::int64_t> (mesh.triangles.size ());
-  if (broken.count == 0)
+  if (figures.broken.count == 0)
     addComponentsAndLoops (mesh, points, spacing, run, found);
   return found;
 }

@@ -30,25 +30,66 @@ struct CheckLimits
                              ///< A triangle is degenerate if its height is below both limits
 };
 
-/// Figures of a mesh, and positions of its flaws: the smallest point of a flaw, NONE if there is
-/// none.
+/// Number of some flaws, and the smallest point of one, NONE if there is none.
+struct FlawCount
+{
+  std::size_t count = 0;
+  Index at = NONE;
+
+  void add (const FlawCount& more)
+  {
+    count += more.count;
+    at = std::min (at, more.at);
+  }
+};
+
+/// Length of an edge in local spacings, and its ends, the smaller one first.
+struct LongEdge
+{
+  double sqr_length = 0.0;
+  std::pair<Index, Index> at{};
+
+  void take (const LongEdge& other)
+  {
+    if (other.sqr_length > sqr_length)
+      *this = other;
+  }
+};
+
+/// What is found at triangles. Edges belong to the smaller triangle.
+struct Figures
+{
+  std::size_t edges = 0, bent = 0; ///< bent: by more than 60 degrees
+  FlawCount broken;                ///< non-manifold, or two triangles with opposite orientations
+  FlawCount folds, degenerate;
+  FlawCount long_edges; ///< longer than CheckLimits::long_edge, not on a boundary
+  LongEdge longest, longest_inside;
+
+  void add (const Figures& more)
+  {
+    edges += more.edges;
+    bent += more.bent;
+    broken.add (more.broken);
+    folds.add (more.folds);
+    degenerate.add (more.degenerate);
+    long_edges.add (more.long_edges);
+    longest.take (more.longest);
+    longest_inside.take (more.longest_inside);
+  }
+};
+
+/// Figures of a mesh, and positions of its flaws.
 struct MeshExamination
 {
   MeshCheck check;                 ///< lengths in units of the cloud, indices of the cloud
   std::vector<BoundaryLoop> loops; ///< parallel to check.loops: longest first
   std::vector<std::size_t> component_points; ///< vertices of each component
   std::vector<Index> unused;                 ///< points without a triangle, ascending
-  Index broken_at = NONE;      ///< non-manifold, or two triangles with opposite orientations
-  double bent_share = 0.0;     ///< of the edges: bent by more than 60 degrees
-  Index fold_at = NONE;        ///< start of a folded edge
-  Index degenerate_at = NONE;  ///< corner of a degenerate triangle
-  CrossingPairs crossing;      ///< triangles that cross; see checkCrossing
-  Index crossing_at = NONE;    ///< corner of such a triangle
-  std::size_t long_edges = 0;  ///< longer than CheckLimits::long_edge, not on a boundary
-  double longest_inside = 0.0; ///< longest edge inside, in local spacings
-  std::pair<Index, Index> longest_inside_at{}; ///< its two ends
-  std::size_t smallest_component = 0;          ///< number of vertices
-  std::size_t largest_component = 0;           ///< number of vertices
+  Figures figures;
+  CrossingPairs crossing;             ///< triangles that cross; see checkCrossing
+  Index crossing_at = NONE;           ///< corner of such a triangle
+  std::size_t smallest_component = 0; ///< number of vertices
+  std::size_t largest_component = 0;  ///< number of vertices
   Index smallest_component_at = NONE;
 
   bool isManifold () const

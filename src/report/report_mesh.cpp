@@ -25,25 +25,27 @@ findShape (const Points& points, const MeshExamination& found, Report& report)
 {
   const MeshCheck& check = found.check;
   if (check.folds > 0)
-    addFinding (report, FindingId::FOLDS, points, {found.fold_at}, check.folds,
+    addFinding (report, FindingId::FOLDS, points, {found.figures.folds.at}, check.folds,
                 report.denoised ? 1 : 0);
   if (check.self_intersections > 0 || check.has_more_self_intersections)
     addFinding (report, FindingId::CROSSING_TRIANGLES, points, {found.crossing_at},
                 check.self_intersections, report.denoised ? 1 : 0,
                 check.has_more_self_intersections ? 1 : 0);
   const auto vertices = static_cast<double> (points.size () - found.unused.size ());
+  const auto edges = static_cast<double> (std::max<std::size_t> (1, found.figures.edges));
+  const double bent_share = static_cast<double> (found.figures.bent) / edges;
   const Statistics& statistics = report.statistics;
   const std::size_t unclear = statistics.projected_points + statistics.stacked_points;
   if (!report.is_view && unclear <= statistics.working_points / NOISY_OR_STACKED &&
-      points.size () >= FEWEST_BENT && found.bent_share > BENT_SHARE &&
-      found.bent_share > BENT_BY_SHAPE / std::sqrt (vertices))
-    addFinding (report, FindingId::SPARSE_SHAPE, points, {}, 100.0 * found.bent_share);
-  if (found.long_edges > 0)
-    addFinding (report, FindingId::LONG_EDGES, points,
-                {found.longest_inside_at.first, found.longest_inside_at.second}, found.long_edges,
-                found.longest_inside);
+      points.size () >= FEWEST_BENT && bent_share > BENT_SHARE &&
+      bent_share > BENT_BY_SHAPE / std::sqrt (vertices))
+    addFinding (report, FindingId::SPARSE_SHAPE, points, {}, 100.0 * bent_share);
+  const LongEdge& longest = found.figures.longest_inside;
+  if (found.figures.long_edges.count > 0)
+    addFinding (report, FindingId::LONG_EDGES, points, {longest.at.first, longest.at.second},
+                found.figures.long_edges.count, std::sqrt (longest.sqr_length));
   if (check.degenerate_triangles > 0)
-    addFinding (report, FindingId::NO_AREA, points, {found.degenerate_at},
+    addFinding (report, FindingId::NO_AREA, points, {found.figures.degenerate.at},
                 check.degenerate_triangles);
   if (found.smallest_component < FEW_POINTS &&
       found.largest_component > TINY_SHARE * found.smallest_component)
@@ -292,10 +294,10 @@ reportMesh (const Points& points, const std::vector<Triangle>& triangles,
             "the result is not an oriented manifold: " +
                 std::to_string (found.check.nonmanifold_edges) + " edges and " +
                 std::to_string (found.check.nonmanifold_vertices) + " points are not manifold" +
-                (found.broken_at == NONE
+                (found.figures.broken.at == NONE
                      ? ""
-                     : ", one at " + placeText (points.cloud_index[found.broken_at],
-                                                points.inCloud (found.broken_at))) +
+                     : ", one at " + placeText (points.cloud_index[found.figures.broken.at],
+                                                points.inCloud (found.figures.broken.at))) +
                 "; please report this with the cloud"};
   if (report.loop.empty () && !found.loops.empty ()) {
     report.loop = valuesAt (points.cloud_index, found.loops.front ().points);

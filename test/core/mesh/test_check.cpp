@@ -25,7 +25,7 @@ expectSound (const Mesh& mesh, std::size_t components, std::int64_t euler, std::
   const MeshCheck& c = found.check;
   EXPECT_TRUE (c.done);
   EXPECT_TRUE (found.isManifold ());
-  EXPECT_EQ (found.broken_at, NONE);
+  EXPECT_EQ (found.figures.broken.at, NONE);
   EXPECT_EQ (c.components, components);
   EXPECT_EQ (c.euler_characteristic, euler);
   EXPECT_EQ (c.genus, genus);
@@ -122,7 +122,7 @@ TEST (MeshCheck, NeighborsThatDoNotFitAreFoundAndTold)
     EXPECT_FALSE (found.isManifold ());
     EXPECT_EQ (found.check.nonmanifold_edges, edges);
     EXPECT_EQ (found.check.nonmanifold_vertices, vertices);
-    EXPECT_NE (found.broken_at, NONE);
+    EXPECT_NE (found.figures.broken.at, NONE);
     Report report;
     const Problem problem = reportMesh (points, mesh.triangles, found, {}, {}, {}, report);
     EXPECT_EQ (problem.status, RunStatus::INTERNAL_ERROR);
@@ -170,8 +170,8 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutAreaAreFoundAndTold)
   Mesh mesh = sheet (4);
   MeshExamination found = check (mesh);
   EXPECT_EQ (found.check.folds, 0U);
-  EXPECT_EQ (found.fold_at, NONE);
-  EXPECT_EQ (found.long_edges, 0U);
+  EXPECT_EQ (found.figures.folds.at, NONE);
+  EXPECT_EQ (found.figures.long_edges.count, 0U);
   EXPECT_NEAR (found.check.longest_edge, std::sqrt (2.0), 1e-6);
   expectWarning (warningsOf (mesh, {}, 1e-14F), "", "1.41e+13 spacings");
 
@@ -182,7 +182,7 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutAreaAreFoundAndTold)
       mesh.positions[5 * y + 4] = {0.3 + 0.1 * std::cos (angle), 0.1 * y, 0.1 * std::sin (angle)};
     found = check (mesh);
     EXPECT_EQ (found.check.folds, folded ? 4U : 0U);
-    EXPECT_EQ (found.fold_at, folded ? 3U : NONE);
+    EXPECT_EQ (found.figures.folds.at, folded ? 3U : NONE);
   }
   expectWarning (warningsOf (mesh), "4 edges are folded", "point 10 (103, -20, 3)");
 
@@ -190,9 +190,9 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutAreaAreFoundAndTold)
   mesh = sheet (4);
   mesh.positions[24] = {1.4, 1.4, 0.0};
   found = check (mesh);
-  EXPECT_EQ (found.long_edges, 1U);
-  EXPECT_EQ (found.longest_inside_at, (std::pair<Index, Index>{18, 24}));
-  EXPECT_NEAR (found.longest_inside, 11.0 * std::sqrt (2.0), 1e-5);
+  EXPECT_EQ (found.figures.long_edges.count, 1U);
+  EXPECT_EQ (found.figures.longest_inside.at, (std::pair<Index, Index>{18, 24}));
+  EXPECT_NEAR (std::sqrt (found.figures.longest_inside.sqr_length), 11.0 * std::sqrt (2.0), 1e-5);
   EXPECT_EQ (found.check.longest_edge_at, (std::array<Index, 2>{3 * 18 + 1, 3 * 24 + 1}));
   expectWarning (warningsOf (mesh), "1 edge inside the surface is much longer",
                  "15.6 spacings from point 55 (103, -17, 3) to point 73");
@@ -203,7 +203,7 @@ TEST (MeshCheck, FoldsLongEdgesAndTrianglesWithoutAreaAreFoundAndTold)
             {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
     found = check (mesh);
     EXPECT_EQ (found.check.degenerate_triangles, flat ? 1U : 0U);
-    EXPECT_EQ (found.degenerate_at, flat ? 0U : NONE);
+    EXPECT_EQ (found.figures.degenerate.at, flat ? 0U : NONE);
     EXPECT_EQ (found.check.folds, 0U); // at right angles to the others, or none
   }
   expectWarning (warningsOf (mesh, {}, 1.0F), "1 triangle has no area", "point 1 (100, -20, 3)");
