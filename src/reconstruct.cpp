@@ -372,8 +372,7 @@ reconstruct (Positions positions, const Options& options)
     else {
       Input input;
       input.cloud_size = positions.size ();
-      input.cloud_index.resize (positions.size ());
-      std::iota (input.cloud_index.begin (), input.cloud_index.end (), Index{0});
+      input.cloud_index = indicesBelow (positions.size ());
       input.positions = std::move (positions);
       return reconstruct (std::move (input), options);
     }

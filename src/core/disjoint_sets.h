@@ -14,10 +14,7 @@ namespace pcl::floater {
 class DisjointSets
 {
 public:
-  explicit DisjointSets (std::size_t size) : parent_ (size)
-  {
-    std::iota (parent_.begin (), parent_.end (), Index{0});
-  }
+  explicit DisjointSets (std::size_t size) : parent_ (indicesBelow (size)) {}
 
   /// The representative of an element's set.
   Index find (Index element)
@@ -63,9 +60,9 @@ private:
 class SignedSets
 {
 public:
-  explicit SignedSets (std::size_t size) : parent_ (size), flipped_ (size, 0), rank_ (size, 0)
+  explicit SignedSets (std::size_t size)
+      : parent_ (indicesBelow (size)), flipped_ (size, 0), rank_ (size, 0)
   {
-    std::iota (parent_.begin (), parent_.end (), Index{0});
   }
 
   struct Place

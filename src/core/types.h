@@ -41,4 +41,13 @@ using Flags = std::vector<std::uint8_t>;
 /// Corners of a triangle, anti-clockwise seen from the front.
 using Triangle = std::array<Index, 3>;
 
+/// The indices from 0 to count - 1.
+inline std::vector<Index>
+indicesBelow (std::size_t count)
+{
+  std::vector<Index> indices (count);
+  std::iota (indices.begin (), indices.end (), Index{0});
+  return indices;
+}
+
 } // namespace pcl::floater

@@ -24,10 +24,9 @@ public:
   };
 
   SidesOfSpace (const Tetrahedra& tetrahedra, const Flags& is_free)
-      : tetrahedra_ (tetrahedra), parent_ (tetrahedra.size ()), is_other_ (tetrahedra.size (), 0),
-        free_points_ (tetrahedra.size ())
+      : tetrahedra_ (tetrahedra), parent_ (indicesBelow (tetrahedra.size ())),
+        is_other_ (tetrahedra.size (), 0), free_points_ (tetrahedra.size ())
   {
-    std::iota (parent_.begin (), parent_.end (), Index{0});
     for (Index t = 0; t < tetrahedra.size (); ++t)
       for (const Index p : tetrahedra.corners[t])
         if (p != NONE && is_free[p] != 0)

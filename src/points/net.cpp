@@ -146,8 +146,7 @@ chooseNet (Points& points, CsrLists& neighbors, const NeighborSettings& settings
   Points net; // without scaling it again
   net.positions = points.positions;
   net.cloud_index = points.cloud_index;
-  std::vector<Index> kept (points.size ());
-  std::iota (kept.begin (), kept.end (), Index{0});
+  std::vector<Index> kept = indicesBelow (points.size ());
   for (std::size_t round = 0; round < ROUNDS; ++round) {
     const std::vector<Index> aside = pointsTooNear (net.positions, neighbors, is_stacked);
     if (aside.empty ())

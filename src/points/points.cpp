@@ -282,8 +282,7 @@ removePoints (Points& points, const std::vector<Index>& removed)
 void
 setAside (Points& points, const std::vector<Index>& kept, const RunContext& run)
 {
-  std::vector<Index> aside (points.size ());
-  std::iota (aside.begin (), aside.end (), Index{0});
+  std::vector<Index> aside = indicesBelow (points.size ());
   eraseRows (aside, kept);
   StackedPoints stacked;
   stacked.positions = valuesAt (points.positions, aside);

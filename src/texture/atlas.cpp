@@ -216,8 +216,7 @@ makeCellMask (const CellArray& taken)
 std::pair<std::vector<CellPlace>, Index>
 packCells (const std::vector<TurnedMasks>& shapes, const RunContext& run)
 {
-  std::vector<Index> order (shapes.size ());
-  std::iota (order.begin (), order.end (), Index{0});
+  std::vector<Index> order = indicesBelow (shapes.size ());
   std::stable_sort (order.begin (), order.end (), [&shapes] (Index a, Index b) {
     return shapes[a][0].cells > shapes[b][0].cells;
   });

@@ -85,7 +85,7 @@ struct ChartMerger
   std::array<Vector3d, DIRECTIONS> directions{};
   std::vector<Chart> charts = std::vector<Chart> (facets.count);
   // Per facet: chart that it was joined to, transitively.
-  std::vector<Index> part_of = std::vector<Index> (facets.count);
+  std::vector<Index> part_of = indicesBelow (facets.count);
   std::priority_queue<Offer> offers{};
   std::size_t left = facets.count; // number of charts
   bool is_for_crumbs = false;
@@ -97,7 +97,6 @@ struct ChartMerger
   {
     for (std::size_t d = 0; d < DIRECTIONS; ++d)
       directions[d] = spiralDirection (d, DIRECTIONS);
-    std::iota (part_of.begin (), part_of.end (), Index{0});
     for (std::size_t t = 0; t < mesh.triangles.size (); ++t) {
       Chart& chart = charts[facets.of_triangle[t]];
       chart.sum += 0.5 * area_vectors[t];

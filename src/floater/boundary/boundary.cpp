@@ -173,8 +173,7 @@ univariateOrder (const std::vector<NeighborEdge>& graph, Index size)
   if (!t.allFinite ())
     return {};
 
-  std::vector<Index> order (size);
-  std::iota (order.begin (), order.end (), Index{0});
+  std::vector<Index> order = indicesBelow (size);
   std::stable_sort (order.begin () + 1, order.end () - 1,
                     [&t] (Index p, Index q) { return t[p - 1] < t[q - 1]; });
   return order;
@@ -230,8 +229,7 @@ clusterBoundaryPoints (const Positions& positions, const std::vector<Index>& bou
     tree.collect (point, tolerance, points.size (), around);
     density.push_back (around.size ());
   }
-  std::vector<Index> starts (points.size ());
-  std::iota (starts.begin (), starts.end (), Index{0});
+  std::vector<Index> starts = indicesBelow (points.size ());
   std::stable_sort (starts.begin (), starts.end (),
                     [&density] (Index a, Index b) { return density[a] > density[b]; });
   for (const Index start : starts) {
@@ -281,8 +279,7 @@ twoSegmentLoop (const Positions& positions, const std::vector<Index>& cluster, i
   // Segment 2 grows from the end of segment 1 among all other points. Those that it does not reach
   // are beside segment 1.
   const auto others = [&points] (std::vector<Index> segment) {
-    std::vector<Index> list (points.size ());
-    std::iota (list.begin (), list.end (), Index{0});
+    std::vector<Index> list = indicesBelow (points.size ());
     std::sort (segment.begin (), segment.end ());
     eraseRows (list, segment);
     return list;
