@@ -133,13 +133,10 @@ takePoints (Input& input, const Options& options, const RunContext& run, Points&
   run.beginStage (Stage::WORKING_SET);
   if (Problem problem = cleanInput (input, options, run, report))
     return problem;
-  points = makePoints (input.positions, input.cloud_index, run);
-  points.normals = normalsOfPoints (input.normals, points);
-  Normals ().swap (input.normals);
-  points.facing_normals = normalsOfPoints (input.facing_normals, points);
-  Normals ().swap (input.facing_normals);
-  Positions ().swap (input.positions);
-  std::vector<Index> ().swap (input.cloud_index);
+  points =
+      makePoints (std::exchange (input.positions, {}), std::exchange (input.cloud_index, {}), run);
+  points.normals = normalsOfPoints (std::exchange (input.normals, {}), points);
+  points.facing_normals = normalsOfPoints (std::exchange (input.facing_normals, {}), points);
   reportPoints (points, report);
   return {};
 }
