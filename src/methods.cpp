@@ -315,7 +315,7 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
   // tells one, have 0.013 to 0.035.
   constexpr double UNUSED_IF_TOLD = 0.01;
   const Options& options = request.options;
-  ViewSurface surface = makeViewSurface (points, viewpoint, {options, request.limits.view},
+  ViewSurface surface = makeViewSurface (points, viewpoint, options, request.limits.view,
                                          facingHints (points, request), request.run);
   LocalGeometry geometry;
   geometry.spacing = std::move (surface.spacing);

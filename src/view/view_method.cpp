@@ -14,14 +14,14 @@ namespace {
 // Fills the loops that the policy does not keep. All loops are at a gap or a depth step.
 std::size_t
 closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& spacing,
-            const Viewpoint& viewpoint, const ViewSettings& settings, const RunContext& run)
+            const Viewpoint& viewpoint, const HoleOptions& holes, const RunContext& run)
 {
   std::vector<BoundaryLoop> loops =
       findBoundaryLoops (mesh, findComponents (mesh, run), points.positions, spacing, run);
   // No point lies beyond any of them: the longest are kept.
   for (BoundaryLoop& loop : loops)
     loop.judgement.empty_length = loop.length;
-  chooseOpenLoops (loops, settings.options.holes, 1.0 / points.scale);
+  chooseOpenLoops (loops, holes, 1.0 / points.scale);
   Normals normals;
   normals.reserve (points.size ());
   for (const Vector3d& position : points.positions) {
@@ -115,8 +115,8 @@ sightFrom (const Points& points, const Viewpoint& viewpoint, bool is_told, const
 }
 
 ViewSurface
-makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
-                 FacingHints hints, const RunContext& run)
+makeViewSurface (const Points& points, const Viewpoint& viewpoint, const Options& options,
+                 const ViewLimits& limits, FacingHints hints, const RunContext& run)
 {
   // Points; smaller components are left out with the outliers. A point and the rays around it are 7 or 9.
   constexpr std::size_t SMALLEST_PART = 12;
@@ -135,7 +135,7 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   run.beginStage (Stage::HOLES);
   Flags is_left_out = findGaps (mesh, rays, run);
   Flags is_step = findDepthSteps (mesh, rays, run);
-  dropShortSteps (mesh, is_left_out, settings.limits.shortest_step, is_step);
+  dropShortSteps (mesh, is_left_out, limits.shortest_step, is_step);
   surface.is_at_step.assign (points.size (), 0);
   for (std::size_t t = 0; t < is_step.size (); ++t) {
     surface.gaps += is_left_out[t];
@@ -149,16 +149,17 @@ makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSet
   removeTriangles (mesh, std::move (is_left_out), run);
 
   run.beginStage (Stage::FLIPS);
-  if (settings.options.flip_edges)
+  if (options.flip_edges)
     surface.finish.flips = flipInView (mesh, rays, points.positions, run);
   surface.spacing = spacingOfMesh (mesh, points.positions, run);
   TrimmingOptions bridges;
-  bridges.maximum_edge_ratio = settings.limits.longest_edge;
+  bridges.maximum_edge_ratio = limits.longest_edge;
   surface.steps += trimMesh (mesh, points, surface.spacing, bridges, run).triangles;
-  if (settings.options.remove_outliers)
+  if (options.remove_outliers)
     removeSmallComponents (mesh, SMALLEST_PART, run);
-  if (settings.options.holes.policy != HolePolicy::AUTO)
-    surface.holes_filled = closeHoles (mesh, points, surface.spacing, viewpoint, settings, run);
+  if (options.holes.policy != HolePolicy::AUTO)
+    surface.holes_filled =
+        closeHoles (mesh, points, surface.spacing, viewpoint, options.holes, run);
   surface.finish.facing = faceInView (mesh, points, viewpoint, std::move (hints), run);
   return surface;
 }

@@ -21,12 +21,6 @@ struct ViewLimits
                                  ///< only half did
 };
 
-struct ViewSettings
-{
-  const Options& options;
-  const ViewLimits& limits;
-};
-
 /// Whether a cloud was seen from a place.
 enum class Sight
 {
@@ -58,7 +52,7 @@ struct ViewSurface
 /// another facing. Stages DELAUNAY, HOLES and FLIPS. O(n log n).
 /// \param hints their sensor is used only if the viewpoint is far away
 ViewSurface
-makeViewSurface (const Points& points, const Viewpoint& viewpoint, const ViewSettings& settings,
-                 FacingHints hints, const RunContext& run);
+makeViewSurface (const Points& points, const Viewpoint& viewpoint, const Options& options,
+                 const ViewLimits& limits, FacingHints hints, const RunContext& run);
 
 } // namespace pcl::floater
