@@ -26,18 +26,17 @@ struct Excess
 // of a real one 0.9 and 3.2, and wrong ones 0.9 and 3.5 or more.
 constexpr Excess EARLY{2.0, 100.0}, EARLY_FROM_FAR{2.0, 5.0}, LATE{1.4, 2.0};
 
-class ViewpointSearch
+struct ViewpointSearch
 {
-public:
-  ViewpointSearch (const Points& points, const RowOf& row_of,
-                   const std::vector<AreaSample>& samples, std::size_t patches, bool may_be_far,
-                   const RunContext& run)
-      : positions_ (points.positions), row_of_ (row_of), samples_ (samples), patches_ (patches),
-        may_be_far_ (may_be_far), excess_ (may_be_far ? 1.0 : LATE.regularity), run_ (run)
-  {
-    for (const Vector3d& position : positions_)
-      box_.extend (position);
-  }
+  const Positions& positions;
+  const RowOf& row_of;
+  const std::vector<AreaSample>& samples;
+  std::size_t patch_count;
+  bool may_be_far;
+  const RunContext& run;
+  std::size_t few_patches = std::min<std::size_t> (patch_count, 32); // in first rounds
+  double usual_excess = may_be_far ? 1.0 : LATE.regularity; // by which REGULARITY may be missed
+  Eigen::AlignedBox3d box = {};
 
   // For parallel rays: a row lies in the plane of its rays, and all these planes are parallel.
   std::optional<Viewpoint> findAlongRows (const Vector3d& across) const
@@ -48,15 +47,15 @@ public:
     const double step = PI / static_cast<double> (DIRECTIONS);
     // Patches in space, for any direction of the rays.
     constexpr std::size_t FEW = 16; // with 480 rays that are judged
-    const std::vector<RayPatch> patches = findPointPatches (positions_, row_of_, FEW);
+    const std::vector<RayPatch> patches = findPointPatches (positions, row_of, FEW);
     // Lines on a plane are even from all directions, and show none. In 80 generated line scans, the
     // least cost was up to .053 of the median; along noisy lines that are no scan, .15 and more.
     constexpr double LEAST = 0.1;
     std::vector<RatedViewpoint> candidates (DIRECTIONS);
-    parallelTasks (run_, DIRECTIONS, [&] (std::size_t k) {
+    parallelTasks (run, DIRECTIONS, [&] (std::size_t k) {
       const double angle = step * static_cast<double> (k);
       const Viewpoint along{std::cos (angle) * x + std::sin (angle) * y, true};
-      candidates[k] = {findRaySpread (positions_, patches, along, false, run_.withThreads (1)),
+      candidates[k] = {findRaySpread (positions, patches, along, false, run.withThreads (1)),
                        along};
     });
     std::stable_sort (candidates.begin (), candidates.end ());
@@ -75,20 +74,20 @@ public:
   std::optional<Viewpoint> find (bool in_rows) const
   {
     constexpr std::size_t REFINED = 3; // best places by rays, until one is right
-    std::vector<RatedViewpoint> candidates = searchByAreas (samples_, box_, may_be_far_, run_);
+    std::vector<RatedViewpoint> candidates = searchByAreas (samples, box, may_be_far, run);
     // Areas can mislead: in a plane, they are the same from many places. Rays tell which is right.
-    parallelTasks (run_, candidates.size (), [&] (std::size_t k) {
-      const RunContext one = run_.withThreads (1);
+    parallelTasks (run, candidates.size (), [&] (std::size_t k) {
+      const RunContext one = run.withThreads (1);
       const Viewpoint& place = candidates[k].viewpoint;
       candidates[k].cost = findRaySpread (
-          positions_, findRayPatches (positions_, place, one, few_patches_), place, true, one);
+          positions, findRayPatches (positions, place, one, few_patches), place, true, one);
     });
     std::stable_sort (candidates.begin (), candidates.end ());
     candidates.resize (std::min (candidates.size (), REFINED));
     for (const RatedViewpoint& candidate : candidates) {
       std::optional<Found> found;
       const bool ends = takeBetter (refine (candidate.viewpoint), found);
-      if (may_be_far_ && !candidate.viewpoint.is_far) {
+      if (may_be_far && !candidate.viewpoint.is_far) {
         if (!ends && (!found || found->is_certain))
           takeBetter (refine (mirrored (candidate.viewpoint)), found);
         if (!found)
@@ -101,14 +100,13 @@ public:
         // changes by less than the spread that counts as even. The place may be on the wrong side.
         const Viewpoint& seen_from = found->viewpoint;
         const bool is_as_far =
-            !seen_from.is_far && (seen_from.place - box_.center ()).norm () * EVEN > 1.0;
-        return is_as_far ? farFrom (seen_from, box_.center ()) : seen_from;
+            !seen_from.is_far && (seen_from.place - box.center ()).norm () * EVEN > 1.0;
+        return is_as_far ? farFrom (seen_from, box.center ()) : seen_from;
       }
     }
     return {};
   }
 
-private:
   static constexpr double APART = 0.1; // of two directions whose descents may differ
   static constexpr double EVEN = 0.02; // spread of rays that ends the search
   // Of the spread of rays from far away. Rasters of heights have 1; scans of one side had up to 0.52,
@@ -151,11 +149,11 @@ private:
   bool isDetermined (const Found& found) const
   {
     const Viewpoint& place = found.viewpoint;
-    if (!found.explains && !place.is_far && looksToAllSides (positions_, place))
+    if (!found.explains && !place.is_far && looksToAllSides (positions, place))
       return false;
     return found.is_certain ||
            (!place.is_far && evidenceAt (place).ray_spread <
-                                 FARTHER * evidenceAt (farFrom (place, box_.center ())).ray_spread);
+                                 FARTHER * evidenceAt (farFrom (place, box.center ())).ray_spread);
   }
 
   // Mirror image of a viewpoint at the plane of the samples around it. A scanner low above the
@@ -164,7 +162,7 @@ private:
   {
     constexpr std::size_t AROUND = 50; // samples: a tenth, as few as a plane needs
     std::vector<Vector3d> offsets;
-    for (const AreaSample& sample : samples_)
+    for (const AreaSample& sample : samples)
       offsets.emplace_back (sample.position - viewpoint.place);
     const auto around = offsets.begin () + std::min (offsets.size (), AROUND);
     std::partial_sort (
@@ -181,9 +179,9 @@ private:
   bool isHopeless (const std::vector<RayPatch>& patches, const Viewpoint& viewpoint,
                    const Excess& excess) const
   {
-    const RayEvidence evidence = findRayEvidence (positions_, patches, viewpoint, run_);
-    return findRaySpread (positions_, patches, viewpoint, false, run_) >
-               excess.regularity * excess_ * REGULARITY * evidence.point_spread ||
+    const RayEvidence evidence = findRayEvidence (positions, patches, viewpoint, run);
+    return findRaySpread (positions, patches, viewpoint, false, run) >
+               excess.regularity * usual_excess * REGULARITY * evidence.point_spread ||
            evidence.nearShare () > excess.near_share * NEAR_SHARE;
   }
 
@@ -205,8 +203,8 @@ private:
 
   RayEvidence evidenceAt (const Viewpoint& viewpoint) const
   {
-    return findRayEvidence (positions_, findRayPatches (positions_, viewpoint, run_, patches_),
-                            viewpoint, run_);
+    return findRayEvidence (positions, findRayPatches (positions, viewpoint, run, patch_count),
+                            viewpoint, run);
   }
 
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
@@ -222,9 +220,9 @@ private:
     for (std::size_t round = 0; round < ROUNDS; ++round) {
       const bool is_first = round < FIRST;
       const std::vector<RayPatch> patches =
-          findRayPatches (positions_, viewpoint, run_, is_first ? few_patches_ : patches_);
+          findRayPatches (positions, viewpoint, run, is_first ? few_patches : patch_count);
       const auto densities = [&] (const Viewpoint& v) {
-        return findDensityEvidence (positions_, patches, v, run_);
+        return findDensityEvidence (positions, patches, v, run);
       };
       const double most = (is_first ? LENIENT : 1.0) * SEARCHED_DENSITY_REGULARITY;
       if (by_density ? round <= FIRST && densities (viewpoint).left () > most
@@ -233,10 +231,10 @@ private:
       const auto cost = [&] (const Viewpoint& v) {
         return by_density && is_first
                    ? densities (v).ray_spread
-                   : findRaySpread (positions_, patches, v, measure != Measure::RAYS, run_);
+                   : findRaySpread (positions, patches, v, measure != Measure::RAYS, run);
       };
       viewpoint =
-          patternSearch (viewpoint, step, 0.2 * step, box_.center (), EVALUATIONS, cost).viewpoint;
+          patternSearch (viewpoint, step, 0.2 * step, box.center (), EVALUATIONS, cost).viewpoint;
       step *= 0.4;
       if (!by_density && isHopeless (patches, viewpoint,
                                      !is_first          ? LATE
@@ -244,30 +242,21 @@ private:
                                                         : EARLY))
         return {};
     }
-    const std::vector<RayPatch> patches = findRayPatches (positions_, viewpoint, run_, patches_);
-    const RayEvidence rays = findRayEvidence (positions_, patches, viewpoint, run_);
-    const bool is_sure = isSeenFromThere (rays, excess_);
+    const std::vector<RayPatch> patches = findRayPatches (positions, viewpoint, run, patch_count);
+    const RayEvidence rays = findRayEvidence (positions, patches, viewpoint, run);
+    const bool is_sure = isSeenFromThere (rays, usual_excess);
     // Along a far direction, nothing is beside.
     const bool explains =
         !is_sure && !viewpoint.is_far &&
-        explainsDensity (positions_, findDensityEvidence (positions_, patches, viewpoint, run_),
-                         viewpoint, SEARCHED_DENSITY_REGULARITY, run_);
+        explainsDensity (positions, findDensityEvidence (positions, patches, viewpoint, run),
+                         viewpoint, SEARCHED_DENSITY_REGULARITY, run);
     const bool is_even = // with evidence of its own, see isDetermined ()
         is_sure || (!viewpoint.is_far && isSeenFromThere (rays, LATE.regularity));
     if (!is_even && !explains)
       return {};
-    return Found{findRaySpread (positions_, patches, viewpoint, true, run_), viewpoint, is_even,
-                 explains, may_be_far_ && (is_sure || explains)};
+    return Found{findRaySpread (positions, patches, viewpoint, true, run), viewpoint, is_even,
+                 explains, may_be_far && (is_sure || explains)};
   }
-
-  const Positions& positions_;
-  const RowOf& row_of_;
-  const std::vector<AreaSample>& samples_;
-  std::size_t patches_, few_patches_ = std::min<std::size_t> (patches_, 32); // few: in first rounds
-  bool may_be_far_;
-  double excess_; // by which REGULARITY may be missed
-  RunContext run_;
-  Eigen::AlignedBox3d box_;
 };
 
 } // namespace
@@ -338,7 +327,9 @@ findViewpoint (const Points& points, const RowOf& row_of, const std::vector<Area
   if (patches < FEWEST_PATCHES)
     return {};
   const bool for_uneven = reason == SearchReason::UNEVEN;
-  const ViewpointSearch search (points, row_of, samples, patches, for_uneven, run);
+  ViewpointSearch search{points.positions, row_of, samples, patches, for_uneven, run};
+  for (const Vector3d& position : points.positions)
+    search.box.extend (position);
   const RowEvidence rows = for_uneven ? findRows (points, row_of) : RowEvidence ();
   if (rows.share > LINES && !rows.are_straight)
     if (const std::optional<Viewpoint> found = search.findAlongRows (rows.across))
