@@ -213,23 +213,18 @@ ReconstructionState::checkCloud (std::size_t size, const pcl::Indices& indices)
   }
   const std::string outside_the_cloud =
       " is outside the cloud of " + std::to_string (size) + (size == 1 ? " point" : " points");
-  // Negative indices become too large by the conversion.
-  const auto outsideIn = [size] (const pcl::Indices& some) {
-    return std::find_if (some.begin (), some.end (), [size] (pcl::index_t index) {
-      return static_cast<std::size_t> (index) >= size;
-    });
+  const auto areInside = [&] (const pcl::Indices& some, RunStatus status, const char* what,
+                              const char* where) {
+    for (const pcl::index_t index : some)
+      if (static_cast<std::size_t> (index) >= size) { // also negative ones, by the conversion
+        fail (status, what + std::to_string (index) + where + outside_the_cloud);
+        return false;
+      }
+    return true;
   };
-  if (const auto outside = outsideIn (indices); outside != indices.end ()) {
-    fail (RunStatus::INVALID_INDICES, "index " + std::to_string (*outside) + outside_the_cloud);
-    return false;
-  }
-  const pcl::Indices& loop = data_->prescribed_loop;
-  if (const auto outside = outsideIn (loop); outside != loop.end ()) {
-    fail (RunStatus::INVALID_LOOP,
-          "point " + std::to_string (*outside) + " of the given boundary loop" + outside_the_cloud);
-    return false;
-  }
-  return true;
+  return areInside (indices, RunStatus::INVALID_INDICES, "index ", "") &&
+         areInside (data_->prescribed_loop, RunStatus::INVALID_LOOP, "point ",
+                    " of the given boundary loop");
 }
 
 std::vector<std::array<std::uint32_t, 3>>
