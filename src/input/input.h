@@ -15,8 +15,7 @@ namespace pcl::floater {
 bool
 isSensorKnown (const std::array<double, 3>& sensor_origin);
 
-/// INVALID_OPTION if the requested facing needs normals or a viewpoint that the input does not
-/// have.
+/// INVALID_OPTION if the requested facing needs normals or a viewpoint that are not given.
 Problem
 checkFacing (const Input& input, const Options& options);
 
@@ -24,8 +23,7 @@ checkFacing (const Input& input, const Options& options);
 /// are to be left out, makes points that stand for no measurement not finite, and makes the working
 /// set. Points of the user's loop are kept. Frees each array of the input after reading it.
 /// \return INVALID_INDICES unless there is one cloud index for each position, each below the size of
-///     the cloud and given once; DEGENERATE if a remaining point is too far from the others for
-///     double precision
+///     the cloud and given once; DEGENERATE if a remaining point is too far for double precision
 Problem
 takePoints (Input& input, const Options& options, const RunContext& run, Points& points,
             Report& report);

@@ -12,13 +12,11 @@
 #include <string>
 
 namespace pcl::floater {
-/// The options of a run: as given, but with DiscOptions::as_published all extensions are turned
-/// off.
+/// The options of a run: as given, but without any extension for DiscOptions::as_published.
 Options
 effectiveOptions (const Options& options);
 
-/// Sets the choices of TW 385 for a disc where the user gave none: the boundary method, and for
-/// UMFPACK the ordering.
+/// Sets the boundary method of TW 385, and for UMFPACK its ordering, where the user gave none.
 void
 choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_given);
 

@@ -14,8 +14,7 @@ constexpr std::size_t MANY_COINCIDE = 100;
 Vector3d
 inCloud (const Points& points, const Viewpoint& viewpoint)
 {
-  constexpr double ROUNDING = 1e-14; // relative to the scale: error of moving a position to the box
-                                     // and back
+  constexpr double ROUNDING = 1e-14; // of the scale: error of moving a position to the box and back
   const Vector3d place = viewpoint.is_far
                              ? viewpoint.place
                              : Vector3d (points.centre + points.scale * viewpoint.place);

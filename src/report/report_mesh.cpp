@@ -64,8 +64,7 @@ findHoles (const Points& points, const MeshExamination& found, const Options& op
       options.trimming.maximum_edge_length > 0.0 || options.trimming.maximum_edge_ratio > 0.0 ||
       options.trimming.open_self_intersections)
     return;
-  // Small: not wide, and of far fewer points than the border of a round disc of this size, which has
-  // 3.5 sqrt (n).
+  // Small: not wide, and of far fewer points than the border of a round disc has: 3.5 sqrt (n).
   const auto isSmall = [] (const LoopSummary& loop, std::size_t component_points) {
     return loop.width_spacings < SMALL_HOLE && loop.points * loop.points < component_points;
   };
@@ -140,8 +139,7 @@ whyNothingIsLeft (const Trimming& trimming, const TrimmingOptions& options)
 }
 
 // Thresholds for the report. They do not change the mesh.
-constexpr std::size_t TINY_OBJECT = 20; // a part is tiny if the mesh has this many times its
-                                        // triangles
+constexpr std::size_t TINY_OBJECT = 20; // a tiny part has one in so many triangles of the mesh
 constexpr double SURE_FACING = 0.9;     // confidence; lower ones are reported
 constexpr double GUESSED_FACING = 0.6;  // confidence; a warning below
 

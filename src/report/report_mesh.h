@@ -25,10 +25,8 @@ void
 reportLoops (const Points& points, const Surface& surface, Report& report);
 
 /// Reports the finished mesh: its examination, what was trimmed, points in no triangle, and which rule
-/// turned each part, with what confidence. Warns of flaws, small holes that no option asked for, and
-/// guesses.
-/// \return INTERNAL_ERROR unless the mesh is an oriented manifold; DEGENERATE if trimming has left no
-///     triangle
+/// turned each part, with what confidence. Warns of flaws, unasked holes, and guesses.
+/// \return INTERNAL_ERROR unless it is an oriented manifold; DEGENERATE if trimming left no triangle
 Problem
 reportMesh (const Points& points, const std::vector<Triangle>& triangles,
             const MeshExamination& found, const MeshFinish& finish, const Trimming& trimming,

@@ -149,8 +149,7 @@ searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d
   // Largest share of the spread of the areas left at the best viewpoint; with more, areas do not
   // come from a view. In scans with noise of 3 spacings, 0.7 is left.
   constexpr double EXPLAINED = 0.8;
-  // Share of what the best viewpoint explains; those that explain less are left out: on a plane,
-  // many explain as much.
+  // Share of what the best viewpoint explains, for others to count: on a plane, many explain it.
   constexpr double AS_GOOD = 0.75;
   constexpr std::size_t STARTS = 24;       // best viewpoints, from which descents start
   constexpr std::size_t EVALUATIONS = 200; // in each descent

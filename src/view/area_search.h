@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Patches around some points, and their areas, which a scanner sees under the same solid angle. Places from
-// which they look most alike: roughly those that a cloud may be seen from.
+// Patches around some points, and the places from which their solid angles are most alike: roughly
+// those that a cloud may be seen from.
 #pragma once
 
 #include "core/csr_lists.h"
@@ -112,8 +112,7 @@ patternSearch (const Viewpoint& start, double step, double smallest_step, const 
 double
 spreadOfAreas (const std::vector<AreaSample>& samples);
 
-/// \return places to about a hundredth of the bounding box, the best ones first; none if areas do not
-/// come from a view
+/// \return places to a hundredth of the box, best ones first; none if areas come from no view
 /// \param may_be_far directions of parallel rays are tried, too
 std::vector<RatedViewpoint>
 searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d& box,

@@ -8,11 +8,9 @@
 namespace pcl::floater {
 namespace {
 // Degrees. An edge that is not steep is a step if the surface would bend by this at both ends, in
-// opposite directions: two sheets that face the sensor, one behind the other by more than the width
-// of the edge.
+// opposite directions: two sheets that face the sensor, one behind the other.
 constexpr double TURN = 45.0;
-// A step exceeds this many times the noise (see findDepthSteps). 1 % of Gaussian noise does, but in
-// isolated edges.
+// A step exceeds this many times the noise. 1 % of Gaussian noise does, but in isolated edges.
 constexpr double NOISE = 2.0;
 // The same for edges that are not steep, nearly all edges: five standard deviations of Gaussian
 // noise, one edge of a million.
@@ -32,19 +30,16 @@ constexpr double MOST_WEIGHT = 20.0;
 // above, it is a step. A surface seen at less than 6 degrees returns hardly any light, and is
 // sampled ten times more coarsely than one seen face on.
 constexpr double JOINT = 10.0;
-// Edges of about the same depth, among which the noise is measured; their 80 % quantile has an
-// error of 3 %.
+// Edges of about the same depth, which measure the noise; their 80 % quantile has an error of 3 %.
 constexpr std::size_t EDGES_PER_BIN = 2000;
 // On either side; the noise is the median over all.
 constexpr std::size_t BINS_BESIDE = 4;
 // Largest ratio of the noise to that of edges farther away, in units of depth: it does not fall
-// with depth in any sensor. 1, and as much as the curvature of near things and the error of each
-// may add.
+// with depth in any sensor. 1, and as much as curvature and the errors of both may add.
 constexpr double NEARER_NOISE = 3.0;
 // Of a Gaussian, at 1.3 standard deviations. More than 80 % of the edges of a scene are on surfaces.
 constexpr double NOISE_QUANTILE = 0.8;
-// Of the depth, or of the span of depths for parallel rays; smaller deviations are rounding, as no
-// sensor is so precise.
+// Of the depth, or for parallel rays of the span; no sensor is so precise: below, it is rounding.
 constexpr double ROUNDING = 2e-5;
 // Quantile of the deviations above rounding that is one quantum.
 constexpr double STEP_QUANTILE = 0.2;

@@ -184,8 +184,7 @@ private:
   }
 };
 
-// Of a ray: distances to its nearest ones, and to the one of DENSITY_RANK; in space, that of the
-// point of this rank.
+// Of a ray: the distances to the ray and to the point of DENSITY_RANK.
 struct RayDensity
 {
   double depth, to_ray, to_point;

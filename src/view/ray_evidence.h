@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Test whether a cloud was seen from a viewpoint: its rays are evenly spaced, and no point hides
-// another.
+// Tests whether a cloud was seen from a viewpoint: rays are evenly spaced, no point hides another.
 #pragma once
 
 #include "core/run_context.h"
@@ -66,8 +65,7 @@ findRayEvidence (const Positions& positions, const std::vector<RayPatch>& patche
 /// What a search lowers: RayEvidence::ray_spread, to which `with_rows` adds the spread of the distances
 /// to the nearest ray across the direction of the nearest, to the next row of a scanner. For rays from
 /// a place, the means of both leave out the quarter of the patches with the largest. Towards the
-/// viewpoint it falls all the way, while the share of near rays first rises where outlines begin to
-/// overlap. Same cost.
+/// viewpoint it falls all the way, while the share of near rays first rises, at outlines. Same cost.
 double
 findRaySpread (const Positions& positions, const std::vector<RayPatch>& patches,
                const Viewpoint& viewpoint, bool with_rows, const RunContext& run);
@@ -77,8 +75,7 @@ findRaySpread (const Positions& positions, const std::vector<RayPatch>& patches,
 bool
 isSeenFromThere (const RayEvidence& evidence, double excess = 1.0);
 
-/// How dense the points are, and their rays: by the distance to the eighth neighbour. Without the points at
-/// the sensor.
+/// How dense the points are, and their rays: by the eighth neighbour, without points at the sensor.
 struct DensityEvidence
 {
   double near_share = 1.0;   ///< as RayEvidence::nearShare

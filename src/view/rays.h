@@ -8,8 +8,7 @@
 
 namespace pcl::floater {
 /// Depth over width from one ray to the next, from which on one may be beyond the other. Surfaces
-/// at less than 14 degrees to the ray return hardly any light, so few edges of a surface are
-/// steeper.
+/// at less than 14 degrees to the ray return hardly any light: few edges of one are steeper.
 constexpr double STEEP = 4.0;
 
 /// Viewpoint of a cloud.
@@ -32,8 +31,7 @@ farFrom (const Viewpoint& near, const Vector3d& middle)
 struct Ray
 {
   /// Unit vector, zero if the point is the viewpoint; for parallel rays, the projection of the point
-  /// on the plane through the origin across them. Distances between directions approximate angles, or
-  /// are distances.
+  /// on the plane through the origin across them. Their distances are nearly angles, or lengths.
   Vector3d direction;
   double depth; ///< along the ray
 };
@@ -52,9 +50,8 @@ struct Rays
 {
   std::vector<Vector3d> directions; ///< see Ray
   std::vector<double> depths;       ///< see Ray
-  std::vector<double> levels; ///< inverse depths; for parallel rays, depths. In a plane in space,
-                              ///< they are affine functions of the position where the ray meets any
-                              ///< plane across the rays
+  std::vector<double> levels; ///< inverse depths; for parallel rays, depths. On a plane, affine in
+                              ///< the place where a ray meets any plane across the rays
 
   /// Projected rays in the plane: stereographic projection maps circles to circles, so their
   /// Delaunay triangulation is that of the rays. The pole is a direction in the largest cone

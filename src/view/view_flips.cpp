@@ -43,8 +43,7 @@ findGaps (const TriangleMesh& view, const Rays& rays, const RunContext& run)
     radii[t] = radius >= 0.0F ? radius : std::numeric_limits<float>::infinity ();
   });
   // The second smallest radius around each point, then its median over the neighbours: at a
-  // boundary, more triangles may lie in the gap than on the surface, but hardly fewer than two on
-  // the surface.
+  // boundary, most triangles may lie in the gap, but hardly fewer than two on the surface.
   std::vector<float> around (points, 0.0F), typical (points, 0.0F);
   parallelPoints<std::vector<Index>, std::vector<float>> (
       run, points, [&] (Index p, auto& fan, auto& values) {

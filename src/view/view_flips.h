@@ -31,8 +31,7 @@ findDepthSteps (const TriangleMesh& view, const Rays& rays, const RunContext& ru
 /// Flips edges of the view to make the surface smoother. Each flip lowers the sum over the edges of
 /// 1 - cosine of the angle between their triangles, plus a penalty for each fold. In many scans the
 /// noise of depth exceeds the spacing of rays, and the number of folds depends on the diagonals.
-/// From the sensor, the mesh never has a fold. The best flips come first. O(n) in practice, on all
-/// threads.
+/// From the sensor, the mesh never has a fold. O(n) in practice, on all threads.
 /// \return number of flips
 std::size_t
 flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions,

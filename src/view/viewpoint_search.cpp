@@ -7,12 +7,10 @@
 
 namespace pcl::floater {
 namespace {
-// `DensityEvidence::left` of a place that is not told but searched. Right ones have up to 0.31,
-// wrong ones 0.38 and more.
+// `DensityEvidence::left` of a searched place: right ones have up to 0.31, wrong ones 0.38 and more.
 constexpr double SEARCHED_DENSITY_REGULARITY = 1.0 / 3.0;
 
-// Factors by which the evidence at a viewpoint may miss REGULARITY and NEAR_SHARE for the search to
-// go on from there.
+// Factors by which the evidence may miss REGULARITY and NEAR_SHARE for the search to go on.
 struct Excess
 {
   double regularity, near_share;
@@ -61,8 +59,7 @@ struct ViewpointSearch
     std::stable_sort (candidates.begin (), candidates.end ());
     if (candidates.front ().cost > LEAST * candidates[DIRECTIONS / 2].cost)
       return {};
-    // Rays are evenly spaced from the right direction only; from others, less than from those
-    // around.
+    // Rays are evenly spaced from the right direction only.
     std::optional<Found> best;
     for (const RatedViewpoint& start : keepApart (candidates, APART, REFINED))
       if (takeBetter (refine (start.viewpoint, step), best))
@@ -134,8 +131,7 @@ struct ViewpointSearch
     bool is_certain; // either is clear, and the cloud is not evenly sampled
   };
 
-  // Accepts a viewpoint with more even rays. Returns whether they are even enough to end the
-  // search.
+  // Accepts a viewpoint with more even rays. Returns whether these end the search.
   static bool takeBetter (const std::optional<Found>& found, std::optional<Found>& best)
   {
     if (found && (!best || found->cost < best->cost))
@@ -144,8 +140,7 @@ struct ViewpointSearch
   }
 
   // Whether the cloud is seen from this place. Points that are even to all sides may be a closed body.
-  // A cloud that is sampled evenly must be less even from far away on this side, unlike a raster of
-  // heights.
+  // An evenly sampled cloud must be less even from far on this side, unlike a raster of heights.
   bool isDetermined (const Found& found) const
   {
     const Viewpoint& place = found.viewpoint;
@@ -211,8 +206,7 @@ struct ViewpointSearch
   std::optional<Found> refineBy (Viewpoint viewpoint, double step, Measure measure) const
   {
     constexpr std::size_t FIRST = 3; // rounds
-    // Each with new patches. With 9, as many of 278 generated scans were recognised, and none was
-    // better.
+    // Each with new patches. With 9, as many of 278 generated scans were recognised, none better.
     constexpr std::size_t ROUNDS = 7;
     constexpr std::size_t EVALUATIONS = 400; // in each round
     constexpr double LENIENT = 1.5; // in the first ones; real scans have up to 1.1 at the start
@@ -318,9 +312,8 @@ findViewpoint (const Points& points, const RowOf& row_of, const std::vector<Area
   // Share of points between their two nearest neighbours; above, the cloud was scanned along lines.
   // Random points have 0.25, a square raster 0.33.
   constexpr double LINES = 0.6;
-  // The same of a spinning lidar, for a search by the density of its rays: graded sheets are as
-  // even from some place. 15 scans of cars have 0.47 and more, such sheets of random points up to
-  // 0.25.
+  // The same of a spinning lidar, for a search by the density of its rays: graded sheets are as even
+  // from some place. 15 scans of cars have 0.47 and more, such sheets of random points up to 0.25.
   constexpr double RINGS = 0.4;
   constexpr std::size_t FEWEST_PATCHES = 16, FEWEST_FOR_PLACES = 32;
   const std::size_t patches = std::min (PATCHES, points.size () / PATCH_POINTS);

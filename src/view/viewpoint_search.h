@@ -16,8 +16,8 @@ struct RowEvidence
   bool are_straight = true; ///< nearly all have one direction, so their planes are undetermined
 };
 
-/// \param row_of neighbours of a point, nearest first
 /// Tests some points, spread evenly over their order. O(1).
+/// \param row_of neighbours of a point, nearest first
 RowEvidence
 findRows (const Points& points, const RowOf& row_of);
 
