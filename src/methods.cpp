@@ -122,8 +122,7 @@ reportLeftOut (const Points& points, const MeshExamination& found, const LocalGe
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 }
 
-// Makes the result of a mesh: adds the points that were set aside, examines, trims, reports. The end of
-// every method.
+// The end of every method: adds the points that were set aside, examines, trims, reports.
 // \return INTERNAL_ERROR unless it is an oriented manifold, DEGENERATE if no triangle is left
 Problem
 useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request& request,

@@ -23,8 +23,7 @@ reconstructSurface (const Points& points, LocalGeometry geometry, const Request&
                     Result& result);
 
 /// One scan, which is connected as its sensor saw it from a viewpoint.
-/// \return nothing if too many points are in no triangle of the view and the viewpoint was not
-///     given
+/// \return nothing if too many points are in no triangle, and the viewpoint was not given
 std::optional<Problem>
 reconstructView (const Points& points, const Viewpoint& viewpoint, const Request& request,
                  Result& result);

@@ -21,8 +21,7 @@ namespace {
 // depth cameras at least 0.038. Chosen between these: close to both, and not certain.
 constexpr double DISTURBED = 0.035;
 // The same share, from which on a cloud is too noisy for any mesh through its points, if projection
-// explains it nowhere: noise of 2 spacings has 0.23 or more. Clouds that make a mesh without
-// projection have up to 0.15.
+// explains it nowhere: noise of 2 spacings has 0.23 or more. Clouds with a mesh have up to 0.15.
 constexpr double HOPELESS = 0.2;
 constexpr std::size_t NEARLY_ALL = 9; // times as many points of scatter as others
 
@@ -89,8 +88,7 @@ searchPlanes (const Points& points, const NeighborSettings& settings, const Requ
 }
 
 // Beyond TW 385: projects noisy points on local planes, by which they are connected, where noise
-// explains the disagreement of their stars. The mesh has triangles only, so the user's points stay
-// unchanged.
+// explains the disagreement of their stars. The vertices stay the user's points.
 // \param noise in: to project; out: of the projected points
 // \return the geometry around each projected point
 LocalGeometry
@@ -246,8 +244,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     scatter = findScatter (geometry, noise, is_certain, run);
   if (drops_scatter)
     scatter = exceptLoop (std::move (scatter), points, options);
-  // Errors along the rays of a scan look like noise and scatter; of what is open, the sensor tells
-  // the front.
+  // Errors along rays look like noise and scatter; of what is open, the sensor tells the front.
   const bool looks_noisy = noise.is_strong || !scatter.empty ();
   if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
     if (const std::optional<Problem> problem = reconstructFrom (

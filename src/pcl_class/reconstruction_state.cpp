@@ -234,8 +234,7 @@ ReconstructionState::triangulatePoints (Input&& input)
   std::vector<bool> is_selected (input.cloud_size, false);
   for (const std::uint32_t p : input.cloud_index)
     is_selected[p] = true;
-  // TW 385 as built from PCL; the core's own are faster and use all threads. Both copy the points, in
-  // single precision.
+  // TW 385 as built from PCL; the core's own are faster. Both copy the points, in single precision.
   std::unique_ptr<NeighborSearch> by_pcl;
   if (options.disc.as_published && input.search == nullptr) {
     by_pcl = std::make_unique<SearchMethod<pcl::PointXYZ>> (

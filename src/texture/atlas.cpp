@@ -47,8 +47,7 @@ struct CellPlace
 // Rows of shapes that the search for places may look at, at some 20 nanoseconds.
 constexpr std::size_t MOST_WORK = 50'000'000, MOST_WORK_OF_SHAPE = 10'000;
 
-// Least and largest x of a triangle between the heights low and high. Empty if it has no point
-// there.
+// Least and largest x of a triangle between the heights low and high. Empty if it is not there.
 std::pair<double, double>
 extentBetween (const std::array<Vector2d, 3>& corners, double low, double high)
 {
@@ -94,8 +93,7 @@ struct Strip
         rows[place.y + r] += Cells (place.x + run.lower (), place.x + run.upper ());
   }
 
-  // Moves a shape to the right until it is free. Skipped positions are occupied, so earlier rows
-  // need no new test.
+  // Moves a shape to the right until it is free. All positions that it skips are occupied.
   // \return false if it leaves the strip
   bool moveToFree (const CellMask& shape, CellPlace& place)
   {
@@ -247,8 +245,7 @@ packCells (const std::vector<TurnedMasks>& shapes, const RunContext& run)
   return {std::move (best), least_side};
 }
 
-// Direction of a side of the smallest enclosing rectangle, which is along an edge of the hull
-// (Freeman and Shapira 1975).
+// The long side of the smallest box, which is along an edge of the hull (Freeman, Shapira 1975).
 Vector2d
 longSideOfBox (const ChartLayout& chart)
 {

@@ -143,8 +143,7 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& 
     const Vector2d mean = rings.meanAround (uv, p);
     if (rings.before[p] == NONE || rings.leaving.row (p).size () > 1)
       return mean;
-    // A vertex of one triangle lies to the right of the line from the vertex before to the one
-    // after it.
+    // A vertex of one triangle lies to the right of the way from the one before to the one after.
     const Vector2d way = uv[rings.after[p]] - uv[rings.before[p]];
     return mean + EAR_HEIGHT * Vector2d (way.y (), -way.x ());
   };

@@ -12,8 +12,7 @@ struct ChartLayout
 {
   std::vector<Index> triangles; ///< of the mesh, ascending
   MeshPiece chart;              ///< these triangles, in this order
-  std::vector<Vector2d> uv;     ///< per vertex, of any scale; empty if the chart is no disc, or
-                                ///< rounding failed
+  std::vector<Vector2d> uv;     ///< per vertex, any scale; empty if no disc, or rounding failed
   double area = 0.0;            ///< of the chart in space, with minimum heights (LEAST_HEIGHT)
   double stretch = 1.0;         ///< mean (see StretchSums)
 };
@@ -22,8 +21,7 @@ struct ChartLayout
 struct DescentLimits
 {
   int steps = 60;                ///< at most
-  double least_progress = 0.003; ///< relative decrease of the distortion above its minimum by a
-                                 ///< step; below, it ends
+  double least_progress = 0.003; ///< of a step, relative to the distortion above its minimum
   int newton_steps = 15;         ///< at most
 
   /// Largest chart that may start on a circle, from where the descent is slow and ends early. A
@@ -55,8 +53,7 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& 
 /// in space, factorized once; a step takes 1 microsecond per triangle. Without progress, some steps
 /// of Newton's method follow. (A quasi-Newton method, L-BFGS, ends higher.)
 ///
-/// The boundary stays simple: the result is the last tested layout whose boundary does not cross
-/// itself.
+/// The result is the last tested layout whose boundary does not cross itself.
 /// \param[in,out] uv per vertex; no triangle flipped, the boundary simple. Scaled first
 void
 descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,

@@ -28,8 +28,7 @@ constexpr double AWAY_COSINE = 0.17, AWAY_WEIGHT = 5.0;
 // deviation of two flat sides (1 - cos 45 degrees, 0.29), so joining two faces of a box exceeds 0.5.
 constexpr double CREASE_WEIGHT = 0.25;
 
-// Cost of a seam as long as the border of a disc of the same area, in deviations. Decisive on flat
-// surfaces only.
+// Cost of a seam as long as the border of a disc of this area; decisive on flat surfaces only.
 constexpr double SEAM_WEIGHT = 0.05;
 
 // A chart with so few triangles, and with less than this share of the joint area, is joined to a

@@ -27,8 +27,7 @@ areaVectors (const TriangleMesh& mesh, const Positions& positions, const RunCont
 
 /// Moves rough vertices, and those around them, to the mean of their neighbours (at the boundary,
 /// of those along it) until they are smooth. Charts are found and laid out on this surface: on the
-/// noisy one, normals are random, and every bump becomes a chart. O(n) for each round; one if there
-/// is no noise.
+/// noisy one, every bump would be a chart. O(n) for each round; one if there is no noise.
 /// \return positions per point; other vertices are unchanged
 Positions
 smoothNoise (const TriangleMesh& mesh, const Positions& original, const RunContext& run);
@@ -43,10 +42,9 @@ growFacets (const TriangleMesh& mesh, const Positions& positions,
 /// Joins the facets of a mesh to charts, cheapest pair first (Garland, Willmott, Heckbert 2001:
 /// hierarchical clustering of faces). Costs: the deviation of the normals in the new chart, the
 /// crease between the two, and the length of the seams around it. Two are joined only if the union
-/// is a disc, tested by Euler's formula: so every chart is a disc with a simple boundary. Then
-/// straightens the seams: triangles with two edges on a seam move to the chart beyond it where this
-/// shortens the seam, with less weight along creases. O(n log n), mostly in one thread: a second for
-/// a million triangles.
+/// is a disc, tested by Euler's formula. Then straightens the seams: triangles with two edges on one
+/// move to the chart beyond it where this shortens it, with less weight along creases. O(n log n),
+/// mostly in one thread: a second for a million triangles.
 MeshComponents
 findCharts (const TriangleMesh& mesh, const Positions& positions, const ChartLimits& limits,
             const RunContext& run);

@@ -11,8 +11,7 @@
 
 namespace pcl::floater {
 namespace {
-// Not CHOLMOD's, which starts threads of OpenMP by itself. info () reports a matrix that is indefinite
-// by rounding.
+// Not CHOLMOD's, which starts threads of OpenMP. info () tells if rounding has made it indefinite.
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
 // One row for each vertex, as in a list of coordinates.
@@ -90,8 +89,7 @@ struct Descent
   }
 
   // Newton's method, with the Hessian of each triangle made positive by its known eigenvectors
-  // (Smith, de Goes, Kim 2019). Slower per step, but works for triangles so compressed that the
-  // Laplacian is useless.
+  // (Smith, de Goes, Kim 2019). Slower per step, but for triangles too compressed for the Laplacian.
   void newton (int steps, const RunContext& run, Coordinates& x, double& energy) const
   {
     Cholesky solver;

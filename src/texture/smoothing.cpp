@@ -25,8 +25,7 @@ constexpr int RINGS = 3;
 constexpr int MOST_ROUNDS = 20; // noise as large as the spacing takes 10
 
 // Largest displacement of a vertex, in mean lengths of the edges at the vertices around it, where
-// these are longest: the largest noise that can be connected. Without this, thin parts would shrink
-// to lines.
+// these are longest: the largest noise that can be connected. Thin parts would shrink to lines.
 constexpr double FARTHEST = 1.0;
 
 // Angles at the edges of a vertex.

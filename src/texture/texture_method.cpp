@@ -12,8 +12,7 @@
 
 namespace pcl::floater {
 namespace {
-// Stretch above which charts of the true surface are cut: roughness that is left after smoothing has
-// less.
+// Stretch above which charts of the true surface are cut; the roughness after smoothing has less.
 constexpr double TOO_MUCH = 1.5;
 
 // Stretch of the true surface in the layout of the smoothed one, above which it is laid out without
@@ -22,8 +21,7 @@ constexpr double TOO_MUCH = 1.5;
 // flattened by smoothing do not.
 constexpr double WRONG = 4.0, NOISY = 0.5;
 
-// Steps of the descent on the true surface, after the smoothed one; limits the time, as noise prevents
-// convergence.
+// Steps of the descent on the true surface, after the smoothed one; noise prevents convergence.
 constexpr int STEPS_TO_NOISE = 20;
 
 using Layouts = std::vector<ChartLayout>;
