@@ -18,8 +18,7 @@ static_assert (
     "would end the program; compile both with the same flags");
 
 namespace pcl {
-/** \brief Reconstructs a surface from an unorganized point cloud. The vertices of the mesh are the
- * points of the cloud.
+/** \brief Reconstructs a surface from an unorganized point cloud, whose points are its vertices.
  *
  * \code
  * pcl::FloaterReconstruction<pcl::PointXYZ> floater;
@@ -63,8 +62,7 @@ namespace pcl {
  *   setIndices() selects points; an index given twice counts once.
  * - \b Output: the whole input cloud, unchanged and in its order, with every field of PointT; and
  *   one consistently oriented manifold of triangles. Their indices count in the whole cloud, also
- *   with setIndices(). The result does not depend on the order of the points or on the number of
- *   threads.
+ *   with setIndices(). The order of the points and the number of threads do not change the result.
  * - \b Failure: the output is empty, the cause is in getStatus() and getMessage(), and one line is
  *   printed by PCL_ERROR; by PCL_WARN if the run was cancelled. Warnings about a mesh are in
  *   getReport().warnings and are printed by PCL_WARN. reconstruct() does not throw.
@@ -111,8 +109,7 @@ public:
    * pcl::io::saveOBJFile() of PCL writes it if the points have normals. Empty after a failure */
   void reconstruct (pcl::TextureMesh& output);
 
-  /** \brief Reconstructs the surface of setInputCloud() and setIndices(), without a copy of the
-   * cloud.
+  /** \brief Reconstructs the surface of setInputCloud() and setIndices(), without copying the cloud.
    * \param[out] polygons the triangles, as indices of the whole cloud */
   void reconstruct (std::vector<pcl::Vertices>& polygons);
 

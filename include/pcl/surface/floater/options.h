@@ -103,10 +103,9 @@ enum class Solver
 /// Order of the unknowns, of rows and columns alike.
 enum class Ordering
 {
-  AUTOMATIC,             ///< UMFPACK: AMD up to 100,000 unknowns, METIS above;
-                         ///< BICGSTAB_ILUT: NATURAL
-  AMD,                   ///< approximate minimum degree
-  METIS,                 ///< nested dissection by METIS
+  AUTOMATIC, ///< BICGSTAB_ILUT: NATURAL; UMFPACK: AMD up to 100,000 unknowns, else METIS
+  AMD,       ///< approximate minimum degree
+  METIS,     ///< nested dissection by METIS
   REVERSE_CUTHILL_MCKEE, ///< small bandwidth
   NATURAL                ///< as the points are stored: along a space-filling curve
 };
@@ -125,8 +124,7 @@ enum class ViewUse
 enum class Facing
 {
   AUTO,      ///< the first rule that decides: input normals, if used; outwards, if closed; towards
-             ///< the sensor of a single scan; into a room; the side that is more visible from
-             ///< outside; up
+             ///< the sensor of a single scan; into a room; the side more visible from outside; up
   OUTWARDS,  ///< away from the inside; open sheets: the side to which they bulge
   UP,        ///< towards +z; upright ones towards +y, or +x. Closed components face outwards
   VIEWPOINT, ///< towards the position of the sensor, which must be known. Closed components face
@@ -190,8 +188,7 @@ struct TrimmingOptions
                                     ///< more; 0: no limit. Edges of a good mesh are up to about 3
                                     ///< long, and up to 6 where the sampling is uneven
   /// Remove triangles until no two cross each other: the last resort after remove_self_intersections,
-  /// for those who simulate, print or trace rays. At such places the mesh gets holes, mostly of a few
-  /// triangles.
+  /// for those who simulate, print or trace rays. It leaves holes, mostly of a few triangles.
   bool open_self_intersections = false;
   int minimum_component_size = 0; ///< remove components of fewer points, 0 or more; at the end
 };
@@ -278,8 +275,7 @@ struct Options
   bool flip_edges = true;    ///< flip edges in space towards Delaunay, and repair folds
   bool remove_self_intersections = true; ///< change the mesh where its triangles cross each other;
                                          ///< needs flip_edges. Not for scans that are connected as
-                                         ///< their sensor saw them, nor where noisy points were
-                                         ///< projected
+                                         ///< their sensor saw them, nor where points were projected
   int threads = 0; ///< 0 or more; 0: one for each core. Does not change the result
 
   /// Called when a stage begins, by the thread that called reconstruct (). An exception from it, or

@@ -25,13 +25,11 @@ public:
   virtual void build (const std::vector<std::uint32_t>& cloud_indices) = 0;
 
   /// Finds the k points nearest to a given one.
-  /// \param[out] cloud_indices in any order; may include the point itself; fewer than k only if the
-  ///     cloud has no more
+  /// \param[out] cloud_indices in any order; may include the point itself; k, if there are so many
   virtual void nearest (std::uint32_t cloud_index, int k,
                         std::vector<std::uint32_t>& cloud_indices) = 0;
 
-  /// Finds the points within a distance of a given one. Called for Neighborhood::BALL and
-  /// BALL_DELAUNAY only.
+  /// Finds the points within a distance. Called for Neighborhood::BALL and BALL_DELAUNAY only.
   /// \param radius in units of the cloud
   /// \param[out] cloud_indices in any order; points beyond the radius or given twice are ignored
   /// \return false if the structure has no such query; then nearest () is called with increasing k
@@ -53,13 +51,11 @@ struct Input
                                          ///< unknown. See ViewUse. The mesh faces it where it can
 
   /// Empty, or one for each point of the whole cloud: normals of the tangent planes, of any length
-  /// and sign, used instead of fitted ones. The plane is fitted where a normal is zero or not
-  /// finite.
+  /// and sign, used instead of fitted ones, but where they are zero or not finite.
   std::vector<Eigen::Vector3f> normals{};
 
-  /// Empty, or one for each point of the whole cloud: normals of any length towards the front of
-  /// the surface; read for Facing::AUTO and NORMALS. Ignored where zero or not finite. May be the
-  /// same as `normals`.
+  /// As `normals`, which it may be, but towards the front of the surface: read for Facing::AUTO and
+  /// NORMALS. Ignored where zero or not finite.
   std::vector<Eigen::Vector3f> facing_normals{};
 
   /// Was subtracted from all coordinates before: points that stand for no measurement, such as
@@ -96,8 +92,7 @@ reconstruct (Input input, const Options& options);
 /// Reconstructs a whole cloud of points in double precision, such as map coordinates, which have a
 /// resolution of only half a metre in PCL's 32-bit point types. The result indexes `positions`.
 /// More than 2^32 - 1 points end with RunStatus::OUT_OF_MEMORY, no point with RunStatus::NO_INPUT.
-/// \param positions may hold non-finite coordinates and equal points. std::move () saves 24 bytes
-///     per point
+/// \param positions may hold non-finite coordinates and equal points. Moving saves 24 bytes each
 PCL_FLOATER_EXPORT Result
 reconstruct (std::vector<Eigen::Vector3d> positions, const Options& options = {});
 

@@ -43,8 +43,7 @@ public:
   };
 
   /** \name Options
-   * Meaning, unit, range and default of each are those of the field of Options that is named. A getter
-   * has what was set.
+   * Meaning, unit, range and default are those of the named field. A getter has what was set.
    * \{ */
   void setTopology (Topology topology);   ///< Options::topology
   Topology getTopology () const;          ///< as asked for; getReport() has that of the mesh
@@ -124,8 +123,7 @@ public:
   /** \brief Whether the mesh gets normals of its vertices, see vertexNormals(); default false. A
    * pcl::PolygonMesh then has them in the fields normal_x, normal_y and normal_z of its cloud, and a
    * pcl::PointCloud in those of its points, if their type has normals. Normals of the input are
-   * replaced in the output, a curvature is not. Takes 64 bytes per point and a tenth of the time of a
-   * run. */
+   * replaced in the output, a curvature is not. Takes 64 bytes per point and a tenth of a run. */
   void setComputeNormals (bool compute);
   bool getComputeNormals () const; ///< see setComputeNormals()
 
@@ -163,8 +161,7 @@ public:
 
   /** \brief The component of the mesh that each point of the whole cloud is in: they are numbered
    * from 0 in the order of their first points; -1 for points in no triangle. Empty if there is no
-   * mesh. As that of pcl::GreedyProjectionTriangulation, which numbers the points of setIndices()
-   * instead. */
+   * mesh. pcl::GreedyProjectionTriangulation numbers the points of setIndices() instead. */
   std::vector<int> getPartIDs () const;
 
   /** \brief The PointState of each point of the whole cloud, otherwise as getPartIDs(). */

@@ -52,9 +52,8 @@ struct LoopSummary
   std::uint32_t at = 0;        ///< smallest cloud index of its points
 };
 
-/// An uncertain decision: whether a boundary loop of the first mesh is a boundary of the surface,
-/// and stays open, or a gap in the sampling, and is filled. The hole policy may overrule the
-/// probability.
+/// An uncertain decision: whether a boundary loop of the first mesh is a boundary of the surface and
+/// stays open, or a gap in the sampling and is filled. The hole policy may overrule the probability.
 struct LoopDecision : LoopSummary
 {
   bool stays_open = false;  ///< else it was filled
@@ -302,8 +301,7 @@ struct Report
   std::vector<std::uint32_t> outliers;   ///< outliers, left out of the mesh; ascending
   std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate, and those
                                          ///< that stand for no measurement; ascending
-  std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),
-                                                        ///< ascending
+  std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, its equal in mesh), ascending
   Statistics statistics;                                ///< counts, times and figures
 };
 

@@ -36,8 +36,7 @@ struct TextureOptions
 };
 
 /// Texture coordinates and their quality, or why there are none. A chart is a piece of the mesh
-/// that is laid out without cuts; an edge between two charts is a seam. A point on a seam has
-/// several coordinates.
+/// laid out without cuts; an edge between two is a seam, whose points have several coordinates.
 struct TextureCoordinates
 {
   RunStatus status = RunStatus::NOT_RUN; ///< SUCCESS, INVALID_OPTION, INVALID_INDICES (also for
@@ -72,8 +71,7 @@ struct TextureCoordinates
 /// triangle is flipped. Charts are scaled by their areas and stretch, and packed.
 ///
 /// Does not throw: a failure is a status and a message. The result does not depend on the number of
-/// threads. Takes about 5 microseconds per triangle with two cores, and 1 kB per triangle of the
-/// largest charts.
+/// threads. Takes 5 microseconds per triangle (two cores), and 1 kB for those of the largest chart.
 /// \param positions of all points; points in no triangle get no coordinates
 /// \param triangles an oriented manifold, such as the result of a reconstruction; corners
 ///     anti-clockwise seen from the front

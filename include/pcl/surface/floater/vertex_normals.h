@@ -19,8 +19,7 @@ namespace pcl::floater {
 /// which the corners are anti-clockwise. The mesh need not be a manifold. Takes 0.6 microseconds
 /// per point and core, and 28 bytes per point beside the result.
 /// \param positions of the points; read for corners only
-/// \param triangles indices into `positions`. Triangles without area or with non-finite corners are
-///     ignored
+/// \param triangles indices into `positions`; ignored if without area or with non-finite corners
 /// \param threads 0 or less: one for each core
 /// \return one for each position, of length 1 in float precision; (0, 0, 0) for points in no valid
 ///     triangle, and where the normals around a point cancel
