@@ -73,7 +73,7 @@ struct StepFinder
 
   Flags find ()
   {
-    if (rays.are_parallel && !rays.depths.empty ()) {
+    if (rays.from.is_far && !rays.depths.empty ()) {
       const auto [least, most] = std::minmax_element (rays.depths.begin (), rays.depths.end ());
       span = std::max (*most - *least, std::numeric_limits<double>::min ());
     }
@@ -93,8 +93,8 @@ struct StepFinder
     std::vector<double> usual_noises (bins);
     double farther = std::numeric_limits<double>::infinity (); // least noise, in units of depth
     // Nor do bins between two steps of quantized depths show the size of a step.
-    const bool is_smooth = !rays.are_parallel && std::find (is_rounded.begin (), is_rounded.end (),
-                                                            1) == is_rounded.end ();
+    const bool is_smooth = !rays.from.is_far && std::find (is_rounded.begin (), is_rounded.end (),
+                                                           1) == is_rounded.end ();
     for (std::size_t b = bins; b-- > 0;) {
       // Over a bin and those beside it: the outline of a round body has constant depth, and most
       // edges of its bin may be steps.
@@ -132,7 +132,7 @@ struct StepFinder
   // Where the ray of q meets a plane across the ray of p, from that point of p.
   Vector2d placeBeside (Index p, Index q) const
   {
-    if (rays.are_parallel)
+    if (rays.from.is_far)
       return rays.places[q] - rays.places[p];
     const Vector3d &across = rays.directions[p], &direction = rays.directions[q];
     const Vector3d x = across.unitOrthogonal ();
@@ -211,7 +211,7 @@ struct StepFinder
   }
 
   // Change of the inverse depth for a relative change of depth.
-  double unitAt (double depth) const { return rays.are_parallel ? span : 1.0 / depth; }
+  double unitAt (double depth) const { return rays.from.is_far ? span : 1.0 / depth; }
 
   // Noise of edges of about the same depth, relative to the depth.
   double measureNoise (std::size_t first, std::size_t last, std::uint8_t& is_rounded) const
@@ -244,8 +244,8 @@ struct StepFinder
   // Position on a ray at an inverse depth, from the sensor. Non-positive ones are far away.
   Vector3d placeAt (Index ray, double level) const
   {
-    if (rays.are_parallel)
-      return rays.directions[ray] + level * rays.parallel;
+    if (rays.from.is_far)
+      return rays.directions[ray] + level * rays.from.place;
     constexpr double FAR_AWAY = 1e-3; // of the inverse depths around
     return rays.directions[ray] / std::max (level, FAR_AWAY * rays.levels[ray]);
   }
@@ -257,7 +257,7 @@ struct StepFinder
     const double change = changeOf (e);
     const std::array<Extension, 2> both = continuationsOf (e);
     const double width = (rays.directions[p] - rays.directions[q]).norm () *
-                         (rays.are_parallel ? 1.0 : std::min (rays.depths[p], rays.depths[q]));
+                         (rays.from.is_far ? 1.0 : std::min (rays.depths[p], rays.depths[q]));
     const double rise = std::abs (rays.depths[p] - rays.depths[q]);
     const bool is_steep = rise > STEEP * width;
     const double continued = rise > GRAZING * width ? CONTINUED_GRAZING : CONTINUED;
@@ -280,9 +280,9 @@ struct StepFinder
       if (!isKnown (end))
         return true;
       const double level = levelFrom (end);
-      const double told_rise = rays.are_parallel ? std::abs (told (end))
-                               : level > 0.0     ? std::abs (1.0 / level - rays.depths[ends[end]])
-                                                 : std::numeric_limits<double>::infinity ();
+      const double told_rise = rays.from.is_far ? std::abs (told (end))
+                               : level > 0.0    ? std::abs (1.0 / level - rays.depths[ends[end]])
+                                                : std::numeric_limits<double>::infinity ();
       return told (end) * change > 0.0 &&
              std::abs (told (end)) >= steep_noise / NOISE * both[end].weight &&
              told_rise > STEEP * width;

@@ -48,9 +48,7 @@ makeRays (const Positions& positions, const Viewpoint& viewpoint, const RunConte
 {
   const std::size_t n = positions.size ();
   Rays rays;
-  rays.are_parallel = viewpoint.is_far;
-  if (viewpoint.is_far)
-    rays.parallel = viewpoint.place;
+  rays.from = viewpoint;
   rays.directions.resize (n);
   rays.depths.resize (n);
   rays.levels.resize (n);

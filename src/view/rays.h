@@ -57,8 +57,7 @@ struct Rays
   /// Delaunay triangulation is that of the rays. The pole is a direction in the largest cone
   /// without rays. Anti-clockwise triangles face the sensor. NaN for a point that is the viewpoint.
   std::vector<Vector2d> places;
-  bool are_parallel = false;
-  Vector3d parallel = Vector3d::Zero (); ///< along parallel rays, unit length
+  Viewpoint from;
 };
 
 /// O(n).

@@ -88,7 +88,7 @@ flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions, co
     constexpr double SLIVER = 1e-3;
     const Vector3d u = rays.directions[from] - rays.directions[p];
     const Vector3d v = rays.directions[to] - rays.directions[p];
-    const Vector3d towards_sensor = -(rays.are_parallel ? rays.parallel : rays.directions[p]);
+    const Vector3d towards_sensor = -(rays.from.is_far ? rays.from.place : rays.directions[p]);
     const double sine = u.cross (v).dot (towards_sensor) / (u.norm () * v.norm ());
     if (!(sine > SLIVER))
       return {};
