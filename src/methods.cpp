@@ -175,8 +175,7 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   return problem;
 }
 
-// The longest boundary loop of the surface that the stars make. Where points lie on others, it is the
-// surface of a net of them.
+// The longest boundary loop of the surface that the stars make, of a net if points lie on others.
 Boundary
 loopOfSurface (const Points& points, LocalGeometry geometry, const Request& request)
 {

@@ -121,8 +121,7 @@ projectNoise (Points& points, LocalGeometry geometry, Noise& noise,
 // If the points are not evenly spaced as seen from the given viewpoint, but are from another one:
 // that one. The given one is then likely to be wrong. First the sensor origin in the file is
 // tried, then a viewpoint is searched. No result for clouds that are even from nowhere, such as a
-// scan that was thinned at random. 0.1 microseconds per point if the given viewpoint is right,
-// otherwise the time of a search.
+// scan that was thinned at random.
 std::optional<Viewpoint>
 contradictingViewpoint (const Points& points, const Viewpoint& given, const Request& request)
 {

@@ -26,8 +26,7 @@ choosePublished (DiscOptions& disc, bool boundary_is_given, bool ordering_is_giv
 Problem
 checkOptions (const Options& options);
 
-/// One sentence for each reason why options had no effect, with their names. Only options that
-/// differ from the default count.
+/// One sentence for each reason why options that differ from the default had no effect.
 /// \param report of the run, for the method that made the mesh
 /// \param has_plane_normals normals were given for the tangent planes
 std::vector<std::string>

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of options: one row for each. It drives the range checks, the warnings on options
-// without effect, the options of the tools and their help, the keyword arguments of Python, the
-// options in reports, and doc/options.md.
+// The table of options: one row for each. It drives the checks, the warnings on options without
+// effect, the tools and their help, the keywords of Python, the reports, and doc/options.md.
 #pragma once
 
 #include <pcl/surface/floater/options.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits: the parameters of the stages that are no options, but may be set. Each stage documents
-// its own, with their origin.
+// Limits: the parameters of the stages that are no options, but may be set (documented there).
 #pragma once
 
 #include "consensus/consensus_method.h"

@@ -99,8 +99,7 @@ statesOf (const std::vector<std::array<std::uint32_t, 3>>& triangles,
   return states;
 }
 
-// Options of the texture coordinates, which are the second half of a run: scales the progress of
-// the reconstruction to the first half.
+// Options of the texture coordinates, whose progress becomes the second half of that of a run.
 TextureOptions
 textureOptions (double largest_stretch, Options& options)
 {

@@ -138,7 +138,6 @@ whyNothingIsLeft (const Trimming& trimming, const TrimmingOptions& options)
          "the cloud";
 }
 
-// Thresholds for the report. They do not change the mesh.
 constexpr std::size_t TINY_OBJECT = 20; // a tiny part has one in so many triangles of the mesh
 constexpr double SURE_FACING = 0.9;     // confidence; lower ones are reported
 constexpr double GUESSED_FACING = 0.6;  // confidence; a warning below
@@ -178,8 +177,7 @@ findingOf (FacingMiss miss, Facing wanted)
   return wanted == Facing::UP ? FindingId::CLOSED_HAS_NO_UP : FindingId::VIEWPOINT_OUTSIDE;
 }
 
-// Reports rule and confidence of the front of each part of the mesh. Warns of guesses, and where the
-// requested rule did not decide.
+// Reports the front of each part. Warns of guesses, and where the requested rule did not decide.
 void
 reportFacing (const Points& points, const MeshFacing& facing, Facing wanted, Report& report)
 {

@@ -14,8 +14,7 @@
 
 namespace pcl::floater {
 /// Reports boundary, figures of the system, and the parameter of every cloud point (equal points
-/// share it). Triangles are anti-clockwise in the plane, also if the disc was turned over. Warns of
-/// a long edge in the loop.
+/// share it). Triangles are anti-clockwise in the plane. Warns of a long edge in the loop.
 void
 reportDisc (const Points& points, const Disc& disc, Report& report);
 

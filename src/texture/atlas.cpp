@@ -14,8 +14,7 @@ namespace {
 // enough for two levels of a mipmap.
 constexpr double LEAST_CELLS = 1024.0;
 
-// For many charts: cells along the side, for each square root of their number. A chart of one triangle
-// takes at least 3 x 3.
+// The same for many charts, over the root of their number. A chart takes at least 3 x 3.
 constexpr double CELLS_PER_CHART = 12.0;
 
 constexpr double FIRST_FILL = 0.75; // share of the square to be covered in the first attempt
@@ -161,8 +160,7 @@ packInStrip (const std::vector<TurnedMasks>& shapes, const std::vector<Index>& o
   return static_cast<Index> (strip.rows.size ());
 }
 
-// The cells that triangles touch, and all adjacent cells; so the array begins one cell left of and
-// below the origin. O(triangles + cells).
+// The cells that triangles touch, and those beside, from one left of and below the origin on.
 // \param uv per vertex, in cells, not negative
 CellArray
 touchedCells (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)

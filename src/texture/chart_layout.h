@@ -32,8 +32,7 @@ struct DescentLimits
 /// Lays the boundary on a circle by the lengths of its edges, and every inner vertex at the mean of its
 /// neighbours. In exact arithmetic no triangle is flipped (Tutte 1963, Floater 1997).
 /// Then lowers the stretch: divides weights by the stretch around the neighbour (Yoshizawa,
-/// Belyaev, Seidel 2004) while the stretch falls, which keeps them positive. One sparse linear
-/// system for each step, some 5 in total.
+/// Belyaev, Seidel 2004) while the stretch falls. Some 5 steps, each a sparse linear system.
 /// \param chart a disc
 /// \return per vertex; empty if rounding or the solver failed
 std::vector<Vector2d>

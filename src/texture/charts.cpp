@@ -274,8 +274,7 @@ struct ChartMerger
   }
 };
 
-// Moves triangles with two edges on a seam to the chart beyond it where this shortens the seam. Charts
-// stay discs, and none vanishes.
+// Straightens the seams (see findCharts). Charts stay discs, and none vanishes.
 void
 straightenSeams (const TriangleMesh& mesh, const Positions& positions,
                  const std::vector<Vector3d>& area_vectors, const RunContext& run,

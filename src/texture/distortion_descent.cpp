@@ -283,8 +283,7 @@ descendDistortion (const MeshPiece& chart, const RestShapes& rest, const Descent
   if (laplacian.info () != Eigen::Success)
     return;
   double energy = descent.energyOf (x);
-  // Steps along the gradient with regard to the Laplacian. Tests the boundary now and then, and ends
-  // if it crosses itself.
+  // Steps along the gradient with regard to the Laplacian. Ends if the boundary crosses itself.
   const auto descend = [&] {
     for (int step = 1; step <= limits.steps; ++step) {
       run.poll ();

@@ -18,8 +18,7 @@ constexpr double ROUGH = 0.14;
 // of a plane that differ by 4 degrees between triangles, and by 6 from the plane (medians).
 constexpr double SMOOTH = 0.06;
 
-// Rings of vertices around rough ones that are smoothed as well, unless smooth: quantized depths are
-// flat between their steps.
+// Of vertices around rough ones that are smoothed, too: quantized depths are flat between steps.
 constexpr int RINGS = 3;
 
 constexpr int MOST_ROUNDS = 20; // noise as large as the spacing takes 10
@@ -49,8 +48,7 @@ smoothNoise (const TriangleMesh& mesh, const Positions& original, const RunConte
         work (p);
     });
   };
-  // Sums the bends of marked vertices: the angles between the normals at their edges, outwards where
-  // the surface is convex.
+  // Sums the bends of marked vertices: angles between the normals at an edge, outwards if convex.
   const auto measureBends = [&] (const Positions& positions, const Flags& is_marked) {
     const std::vector<Vector3d> area_vectors = areaVectors (mesh, positions, run);
     visit ([&] (Index p) {
@@ -71,8 +69,7 @@ smoothNoise (const TriangleMesh& mesh, const Positions& original, const RunConte
       }
     });
   };
-  // The smaller one of the means of outward and inward angles. A single peak bends one way only, so
-  // adjacent vertices count as well.
+  // The smaller of both mean angles, with those beside: a single peak bends one way only.
   const auto bendBothWays = [&] (Index p) {
     Bends sum = bends_at[p];
     for (const Index q : rings.neighbors.row (p)) {

@@ -21,8 +21,7 @@ quartileSpread (std::vector<double>& values)
   return std::log (upper / lower);
 }
 
-// Spread of the solid angles of the samples from a viewpoint: area, times the cosine between normal and
-// ray, over the squared distance.
+// Spread of the solid angles of the samples from a viewpoint (see findViewpoint).
 // \param angles scratch, one for each sample
 double
 areaSpread (const std::vector<AreaSample>& samples, const Viewpoint& viewpoint,
@@ -154,9 +153,8 @@ searchByAreas (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3d
   constexpr std::size_t STARTS = 24;       // best viewpoints, from which descents start
   constexpr std::size_t EVALUATIONS = 200; // in each descent
   constexpr double SMALLEST_STEP = 4e-3;
-  constexpr double NEARER = 0.9; // of the spread of areas from far away
-  // A quarter of the samples gives the spread to twice the error.
-  constexpr std::size_t EVERY = 4;
+  constexpr double NEARER = 0.9;   // of the spread of areas from far away
+  constexpr std::size_t EVERY = 4; // sample, at first: they give the spread to twice the error
   constexpr double ERROR = 0.12;
   std::vector<AreaSample> few;
   for (std::size_t i = 0; i < samples.size (); i += EVERY)

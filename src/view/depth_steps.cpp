@@ -12,8 +12,7 @@ namespace {
 constexpr double TURN = 45.0;
 // A step exceeds this many times the noise. 1 % of Gaussian noise does, but in isolated edges.
 constexpr double NOISE = 2.0;
-// The same for edges that are not steep, nearly all edges: five standard deviations of Gaussian
-// noise, one edge of a million.
+// The same for edges that are not steep: five deviations of Gaussian noise, one edge of a million.
 constexpr double SHARP_NOISE = 4.0;
 // An edge is on one surface if an extrapolation from one of its ends is as steep, up to this
 // factor. At a crease the edge is shorter than the extrapolation from the steeper side: factor 1,
@@ -96,8 +95,7 @@ struct StepFinder
     const bool is_smooth = !rays.from.is_far && std::find (is_rounded.begin (), is_rounded.end (),
                                                            1) == is_rounded.end ();
     for (std::size_t b = bins; b-- > 0;) {
-      // Over a bin and those beside it: the outline of a round body has constant depth, and most
-      // edges of its bin may be steps.
+      // Over several bins: the outline of a round body has constant depth, and may fill its bin.
       std::vector<double> window (noises.data () + (b - std::min (b, BINS_BESIDE)),
                                   noises.data () + std::min (bins, b + BINS_BESIDE + 1));
       usual_noises[b] = median (window);

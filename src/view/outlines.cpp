@@ -31,8 +31,7 @@ isLineBetween (const std::vector<Place>& places, std::size_t first)
   return false;
 }
 
-// Whether places lie along a line, like points in a row: seen at a grazing angle, rows look like
-// surfaces, one behind the other.
+// Whether places lie in a row: at a grazing angle, rows look like surfaces behind each other.
 bool
 areInRow (const Place* first, const Place* last)
 {

@@ -107,8 +107,7 @@ bool
 explainsDensity (const Positions& positions, const DensityEvidence& found,
                  const Viewpoint& viewpoint, double regularity, const RunContext& run);
 
-/// Whether there are rays in all directions: then the points lie on a body around the viewpoint, as
-/// no sensor looks to all sides.
+/// Whether there are rays in all directions: then it is no sensor, but the middle of a body.
 bool
 looksToAllSides (const Positions& positions, const Viewpoint& viewpoint);
 

@@ -82,8 +82,7 @@ flipInView (TriangleMesh& mesh, const Rays& rays, const Positions& positions, co
   };
   parallelPoints (run, normals.size (),
                   [&] (Index t) { normals[t] = normalOf (mesh.triangles[t]); });
-  // The angle at p from the ray of `from` to that of `to`, anti-clockwise from the sensor; nothing
-  // if it is clockwise or nearly zero.
+  // The angle at p from the ray of `from` to that of `to`; nothing unless it is anti-clockwise.
   const auto angle = [&rays] (Index p, Index from, Index to) -> std::optional<double> {
     constexpr double SLIVER = 1e-3;
     const Vector3d u = rays.directions[from] - rays.directions[p];

@@ -34,7 +34,6 @@ closeHoles (TriangleMesh& mesh, const Points& points, const std::vector<float>& 
 
 // Unmarks short steps. A depth step is a closed line, or ends at a gap or another step; a few
 // triangles alone are noise, unless they are all around a point, which may lie off the surface.
-// `is_gap` has an entry for each triangle.
 void
 dropShortSteps (const TriangleMesh& mesh, const Flags& is_gap, std::size_t shortest, Flags& is_step)
 {

@@ -205,9 +205,8 @@ struct ViewpointSearch
   // Patches from a better viewpoint give a still better one; far from it, a few suffice.
   std::optional<Found> refineBy (Viewpoint viewpoint, double step, Measure measure) const
   {
-    constexpr std::size_t FIRST = 3; // rounds
-    // Each with new patches. With 9, as many of 278 generated scans were recognised, none better.
-    constexpr std::size_t ROUNDS = 7;
+    constexpr std::size_t FIRST = 3;  // rounds
+    constexpr std::size_t ROUNDS = 7; // with new patches; 9 were no better for 278 generated scans
     constexpr std::size_t EVALUATIONS = 400; // in each round
     constexpr double LENIENT = 1.5; // in the first ones; real scans have up to 1.1 at the start
     const bool by_density = measure == Measure::DENSITY;
@@ -260,8 +259,7 @@ findRows (const Points& points, const RowOf& row_of)
 {
   constexpr std::size_t TESTED = 500;
   constexpr double OPPOSITE = -0.7; // cosine of 135 degrees
-  constexpr double BENT = 0.87;     // cosine of 30 degrees. Noise of 0.3 spacings along the surface
-                                    // turns rows by 12 degrees
+  constexpr double BENT = 0.87;     // cosine of 30 degrees; noise of 0.3 spacings turns rows by 12
   constexpr double FEWEST_BENT = 0.02; // of the rows: such noise has 0.012, a body on a table more
   const Positions& positions = points.positions;
   const std::size_t step = std::max<std::size_t> (1, positions.size () / TESTED);
@@ -306,8 +304,7 @@ std::optional<Viewpoint>
 findViewpoint (const Points& points, const RowOf& row_of, const std::vector<AreaSample>& samples,
                SearchReason reason, const RunContext& run)
 {
-  // Spread of the areas of patches (logarithm of the ratio of the quartiles); below, the cloud is
-  // sampled evenly. Random points have 0.2.
+  // Spread of the areas of patches; below, a cloud is sampled evenly. Random points have 0.2.
   constexpr double EVEN = 0.35;
   // Share of points between their two nearest neighbours; above, the cloud was scanned along lines.
   // Random points have 0.25, a square raster 0.33.
