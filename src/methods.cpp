@@ -22,7 +22,6 @@ struct Draft
   TriangleMesh mesh;
   MeshFinish finish;
   std::optional<MeshExamination> found = {}; // of the points that are not set aside, if it is known
-  bool is_doubtful = false;                  // a view in which many points are in no triangle
 };
 
 // Examines the mesh on the input points, independently of earlier stages.
@@ -66,7 +65,7 @@ void
 repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeometry& geometry,
               const Request& request)
 {
-  auto& [mesh, finish, found, is_doubtful] = draft;
+  auto& [mesh, finish, found] = draft;
   finish.crossing = findSelfIntersections (mesh.triangles, all.positions, request.run);
   finish.pairs_found = std::max (finish.pairs_found, finish.crossing->size ());
   if (!repairsFlaws (request.options) ||
@@ -110,11 +109,8 @@ checkDisc (const Points& points, const MeshExamination& found, std::vector<Index
 // Points that a view leaves out, also those alone between rays.
 void
 reportLeftOut (const Points& points, const MeshExamination& found, const LocalGeometry& geometry,
-               bool is_doubtful, const Request& request, Report& report)
+               const Request& request, Report& report)
 {
-  if (is_doubtful)
-    addFinding (report, FindingId::DOUBTFUL_VIEWPOINT, points, {}, found.unused.size (),
-                points.size ());
   if (request.options.remove_outliers) {
     report.statistics.working_points = points.size () - found.unused.size ();
     reportOutliers (valuesAt (points.cloud_index, found.unused), FindingId::OUTLIERS, report);
@@ -140,7 +136,7 @@ useMesh (Draft draft, const Points& given, LocalGeometry geometry, const Request
   MeshExamination found =
       draft.found && !all ? std::move (*draft.found) : examine (mesh, points, geometry, request);
   if (report.is_view) // noise along the rays makes true surfaces cross themselves
-    reportLeftOut (points, found, geometry, draft.is_doubtful, request, report);
+    reportLeftOut (points, found, geometry, request, report);
   else
     checkCrossing (mesh.triangles, points, request.run, found, std::move (draft.finish.crossing));
   if (report.topology == Topology::DISC)
@@ -335,8 +331,10 @@ reconstructView (const Points& points, const Viewpoint& viewpoint, const Request
                    "none"};
   result.report.topology = Topology::SURFACE;
   reportView (points, viewpoint, surface, result.report);
-  return useMesh ({std::move (surface.mesh), std::move (surface.finish), std::move (found),
-                   is_doubtful && is_given},
-                  points, std::move (geometry), request, result);
+  if (is_doubtful && is_given) // so no points are set aside
+    addFinding (result.report, FindingId::DOUBTFUL_VIEWPOINT, points, {}, found.unused.size (),
+                points.size ());
+  return useMesh ({std::move (surface.mesh), std::move (surface.finish), std::move (found)}, points,
+                  std::move (geometry), request, result);
 }
 } // namespace pcl::floater
