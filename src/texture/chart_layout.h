@@ -50,9 +50,8 @@ untangle (const MeshPiece& chart, const RunContext& run, std::vector<Vector2d>& 
 /// is infinite where a triangle has no area, and no step goes so far: so no triangle is flipped
 /// (Smith and Schaefer 2015). The direction is the gradient with regard to the Laplacian of the shapes
 /// in space, factorized once; a step takes 1 microsecond per triangle. Without progress, some steps
-/// of Newton's method follow. (A quasi-Newton method, L-BFGS, ends higher.)
-///
-/// The result is the last tested layout whose boundary does not cross itself.
+/// of Newton's method follow. (A quasi-Newton method, L-BFGS, ends higher.) The result is the last
+/// tested layout whose boundary does not cross itself.
 /// \param[in,out] uv per vertex; no triangle flipped, the boundary simple. Scaled first
 void
 descendDistortion (const MeshPiece& chart, const RestShapes& rest, const DescentLimits& limits,
@@ -71,9 +70,8 @@ isUpright (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& 
 /// defects, or else on a circle (layOutOnCircle); one triangle with its shape in space. Then lowers
 /// the distortion (descendDistortion). Both properties are tested exactly. Takes 10 microseconds per
 /// triangle from a projection, and some 100 from a circle.
-/// \param triangles of the mesh
-/// \param chart     triangles of the chart, ascending
-/// \param positions of the points of the mesh
+/// \param triangles, positions of the mesh
+/// \param chart its triangles, ascending
 ChartLayout
 layOutChart (const std::vector<Triangle>& triangles, std::vector<Index> chart,
              const Positions& positions, const DescentLimits& limits, const RunContext& run);

@@ -17,9 +17,8 @@ struct MeshPiece
 };
 
 /// O(triangles log triangles).
-/// \param triangles of the larger mesh
-/// \param piece     those of the piece
-/// \param positions of the points of the larger mesh
+/// \param triangles, positions of the larger mesh
+/// \param piece its triangles
 MeshPiece
 cutOut (const std::vector<Triangle>& triangles, const std::vector<Index>& piece,
         const Positions& positions);

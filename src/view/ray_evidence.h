@@ -111,12 +111,11 @@ explainsDensity (const Positions& positions, const DensityEvidence& found,
 bool
 looksToAllSides (const Positions& positions, const Viewpoint& viewpoint);
 
-/// Whether outlines tell that a cloud was seen from a viewpoint, however even its points are, such as
-/// after a voxel filter. At an outline, near rays end on two surfaces. Seen from the sensor, a line
-/// parts the rays to one from those to the other; from elsewhere, the surfaces overlap, and their rays
-/// are mixed. Each patch with outlines is for the viewpoint or against it; those for it must be more
-/// by two standard deviations of chance, so four at least. If they are more, but not by enough, more
-/// patches are taken, and all of their rays. O(patches * points of a patch squared).
+/// Whether outlines tell that a cloud was seen from a viewpoint, however even its points are. At an
+/// outline, near rays end on two surfaces: seen from the sensor, a line parts them; from elsewhere,
+/// they are mixed. Each patch with outlines is for the viewpoint or against it; those for it must be
+/// more by two standard deviations of chance, so four at least. If they are more, but not by enough,
+/// more patches are taken, and all of their rays. O(patches * points of a patch squared).
 bool
 areOutlinesClear (const Positions& positions, const std::vector<RayPatch>& patches,
                   const Viewpoint& viewpoint, const RunContext& run);

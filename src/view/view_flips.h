@@ -17,13 +17,11 @@ findGaps (const TriangleMesh& view, const Rays& rays, const RunContext& run);
 /// From each end of an edge, the surface is extrapolated along the edge: inverse depths (see Rays)
 /// are affine in planes, so the triangle behind the end predicts the inverse depth at the other
 /// end. An edge is a step if it is steep, and if neither end predicts the other one: the deviation
-/// exceeds the noise, and the surface is not as steep in this direction. But where the surface goes
-/// the same way at both ends, steeply and beyond the noise, it is one that few rays hit, such as
-/// ground far from a low sensor.
+/// exceeds the noise, and the surface is not as steep in this direction. But where it goes the same
+/// way at both ends, steeply and beyond the noise, few rays hit it, such as ground far away.
 ///
-/// Noise of depth grows with depth in every sensor, in some with its square. It is measured as a
-/// quantile of the deviations, divided by their sums of weights, at edges of about the same depth.
-/// Where most deviations are rounding, depths are quantized, and the noise is one quantum. O(n log n).
+/// Noise grows with depth. It is a quantile of the deviations, divided by their sums of weights, at
+/// edges of about the same depth; or one quantum, where most deviations are rounding. O(n log n).
 /// \return of each triangle: 1 if one of its edges is a step
 Flags
 findDepthSteps (const TriangleMesh& view, const Rays& rays, const RunContext& run);

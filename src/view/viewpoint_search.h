@@ -31,10 +31,9 @@ enum class SearchReason
 
 /// Finds the viewpoint of a cloud in two steps.
 ///
-/// Areas: a sensor spaces its rays evenly, so the area around a point grows with the square of the
-/// distance, and with the slope to the ray. Area of a patch, times the cosine, over the squared
-/// distance, is the solid angle of a ray. The viewpoint where these are most alike is searched on a
-/// grid, also far away, and refined.
+/// Areas: a sensor spaces its rays evenly. The area of a patch, times the cosine between its normal
+/// and the ray, over the squared distance, is its solid angle. The viewpoint where these are
+/// most alike is searched on a grid, also far away, and refined.
 ///
 /// Rays: near the best of these, pattern search finds the viewpoints from which the rays are most
 /// evenly spaced and no point hides another (see RayEvidence), or the viewpoint explains the density

@@ -70,12 +70,9 @@ struct Result
   Report report;                                       ///< status, figures and warnings
 };
 
-/// Reconstructs a surface by one of three methods (see Topology and ViewUse). The consensus method
-/// makes surfaces of any topology: it assembles the triangles on which the Delaunay stars of
-/// neighbouring points agree, and fills holes by minimum-cost triangulations of their boundary
-/// loops. The disc method is meshless parameterization (Floater and Reimers 2001) as in TW 385. The
-/// view method triangulates the rays of a single scan. After the first two, points without a triangle
-/// are inserted, edges are flipped in space and folds are repaired.
+/// Reconstructs a surface by one of three methods (see FloaterReconstruction, Topology and ViewUse):
+/// the consensus of the stars of neighbouring points; meshless parameterization (Floater and
+/// Reimers 2001) as in TW 385; or the triangulation of the rays of a single scan.
 ///
 /// Every component of the mesh faces as Options::facing asks; by Facing::AUTO, the wall of a hollow in
 /// another body faces into the hollow, and components that continue each other across a gap face
