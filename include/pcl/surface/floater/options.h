@@ -119,8 +119,7 @@ enum class ViewUse
   NEVER  ///< no; the mesh does not face the origin of the sensor either
 };
 
-/// Which side of each component of the mesh is its front. Where the requested rule does not decide,
-/// a warning is given, and AUTO decides.
+/// Which side of a component is the front. Where a rule does not decide, AUTO does, with a warning.
 enum class Facing
 {
   AUTO,      ///< the first rule that decides: input normals, if used; outwards, if closed; towards

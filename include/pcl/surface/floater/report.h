@@ -72,10 +72,9 @@ enum class FacingRule
   SHEET,   ///< both sides are equally visible: it faces up
   NORMALS, ///< most of the normals of the input point to the front
   UP,      ///< it faces up, as requested
-  BULGE, ///< both sides are equally visible; it stands, or OUTWARDS was requested: the front is the
-         ///< side to which it bulges
-  ROOM,  ///< floor, ceiling and walls with openings: it faces the people in it
-  COUNT  ///< the number of rules
+  BULGE,   ///< as SHEET, but it stands, or OUTWARDS was requested: the front is where it bulges
+  ROOM,    ///< floor, ceiling and walls with openings: it faces the people in it
+  COUNT    ///< the number of rules
 };
 
 /// Short name of a rule in lower case ("body").
@@ -259,8 +258,7 @@ struct Statistics : SystemStatistics
   std::size_t flips = 0;         ///< edges flipped in space
   std::size_t folds = 0;         ///< see MeshCheck::folds
   std::size_t necks_cut = 0;     ///< surface: necks between sheets that only come close
-  std::size_t remade_points = 0; ///< surface: points at which several sheets are near, whose
-                                 ///< triangles were made anew in space
+  std::size_t remade_points = 0; ///< surface: points between near sheets, connected anew in space
   std::size_t self_intersections_found = 0;   ///< before any were removed
   std::size_t self_intersection_flips = 0;    ///< edges flipped to remove them, or folds
   std::size_t self_intersection_moves = 0;    ///< points moved to other triangles
@@ -273,8 +271,7 @@ struct Report
   RunStatus status = RunStatus::NOT_RUN; ///< outcome
   std::string message;           ///< one sentence: the cause and what to do; empty after SUCCESS
   Verdict verdict;               ///< how good the mesh is, why, and what helps
-  std::vector<Finding> findings; ///< oddities of cloud and mesh: flaws, then doubts, then notes;
-                                 ///< those that concern most first
+  std::vector<Finding> findings; ///< flaws, then doubts, then notes; those that concern most first
   std::vector<std::string> warnings;  ///< a sentence for each finding and option without effect
   Topology topology = Topology::AUTO; ///< the method that made the mesh: DISC or SURFACE
   std::string topology_reason;        ///< reason for this method, in a few words
