@@ -222,11 +222,7 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, bool is_certain,
     take (DIMENSION, is_scatter);
   }
   takeRegions (geometry.neighbors, distant, LEAST_FAR, 0.5, is_scatter);
-  std::vector<Index> scatter;
-  for (Index p = 0; p < n; ++p)
-    if (is_scatter[p] != 0)
-      scatter.push_back (p);
-  return scatter;
+  return indicesWhere (n, [&] (Index p) { return is_scatter[p] != 0; });
 }
 
 } // namespace pcl::floater
