@@ -87,7 +87,7 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
   const Positions& positions = points.workingPositions ();
   if (settings.reach_beyond) {
     const std::size_t n = positions.size ();
-    planes.beside.reach.resize (n);
+    planes.beside_reach.resize (n);
     RangeRows beside (n, n);
     parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
       BesideSearch search{positions, planes};
@@ -95,13 +95,13 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
       for (auto p = static_cast<Index> (first); p < last; ++p) {
         const Row known = planes.neighbors.row (p);
         row.assign (known.begin (), known.end ());
-        planes.beside.reach[p] = search.extend (p, row);
+        planes.beside_reach[p] = search.extend (p, row);
         for (std::size_t i = known.size (); i < row.size (); ++i)
           beside.add (first, p, row[i]);
       }
     });
-    planes.beside.neighbors = beside.join ();
-    appendRows (planes.beside.neighbors, planes.neighbors);
+    planes.beside = beside.join ();
+    appendRows (planes.beside, planes.neighbors);
   }
   planes.normals.resize (positions.size ());
   parallelPoints (run, positions.size (), [&] (Index p) {

@@ -203,7 +203,7 @@ reachOf (const std::vector<PlanarNeighbor>& star, bool open)
 }
 
 bool
-StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
+StarReach::extend (Index p, const TangentFrame& frame, bool open,
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   constexpr int ROUNDS = 8; // of one star, to limit the time
@@ -216,10 +216,12 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
   constexpr SheetLimits CIRCLE_SHEET{0.25, 0.8};
   added.clear ();
   const Vector3d& here = positions[p];
-  const double farthest = farthestFrom (positions, p, planes.neighbors.first (p, nearest),
-                                        static_cast<double> (planes.spacing[p]));
+  const Row row = planes.neighbors.row (p);
+  const Row nearest = planes.neighbors.first (p, row.size () - planes.beside.row (p).size ());
+  const double farthest =
+      farthestFrom (positions, p, nearest, static_cast<double> (planes.spacing[p]));
   const double sqr_searched = // all points within are in the row
-      nearest == 0 ? 0.0 : (positions[row[nearest - 1]] - here).squaredNorm ();
+      nearest.size () == 0 ? 0.0 : (positions[nearest[nearest.size () - 1]] - here).squaredNorm ();
   const auto isNew = [&] (Index point, double sqr_distance, const SheetLimits& sheets) {
     // The row may contain neighbours beside a line, which are farther than the nearest.
     return sqr_distance >= sqr_searched &&

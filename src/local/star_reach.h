@@ -46,23 +46,17 @@ lineThrough (const Positions& positions, Index p, Row row, double least_aspect =
 bool
 liesBeside (const Line& line, const Vector3d& offset);
 
-/// Neighbours beside the points whose nearest neighbours are collinear, as in scan lines.
-struct BesideLines
-{
-  CsrLists neighbors;       ///< nearest on either side of the line; none for all other points
-  std::vector<float> reach; ///< for points on lines: the smaller distance to the nearest points on
-                            ///< opposite sides; 0 for all others
-};
-
 /// Input of the stars.
 struct LocalPlanes
 {
   CsrLists neighbors;         ///< nearest first, then the far neighbours beside lines
   std::vector<float> spacing; ///< of the working positions: see localSpacing
   Normals normals;            ///< of the tangent planes: unit length, of arbitrary sign
-  std::optional<KdTree> tree; ///< of the working positions, if stars reach beyond the
-                              ///< neighbours
-  BesideLines beside;         ///< neighbours beside lines, in the same case
+  std::optional<KdTree> tree; ///< of the working positions, if stars reach beyond the neighbours
+  /// Of points on lines, as in scan lines, then also: their nearest on either side of the line, and
+  /// the smaller distance to the nearest points on opposite sides; none, and 0, for all others.
+  CsrLists beside;
+  std::vector<float> beside_reach;
 };
 
 /// Finds the neighbours beside the line of a point, if it is on one, by two searches.
@@ -73,7 +67,7 @@ struct BesideSearch
   std::array<std::vector<Neighbor>, 2> found_on = {}; ///< the sides of the last point on a line
 
   /// \param row in: the neighbours of p; out: with those beside its line
-  /// \return see BesideLines::reach
+  /// \return see LocalPlanes::beside_reach
   float extend (Index p, std::vector<Index>& row);
 };
 
@@ -103,12 +97,10 @@ struct StarReach
   std::vector<Neighbor> found = {};
 
   /// \param frame      of the plane of the star
-  /// \param row        neighbours of p
-  /// \param nearest    number of these, from the first on, that are the nearest of all points
   /// \param candidates those in the triangulation; far neighbours are appended
   /// \param star       in: of the candidates; out: with far neighbours
   /// \return whether the star is open
-  bool extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
+  bool extend (Index p, const TangentFrame& frame, bool open,
                std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star);
 };
 
