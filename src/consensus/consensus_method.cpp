@@ -99,18 +99,13 @@ isNoise (const Points& points)
 // again with others.
 // \param crossed these fillings; or nullptr
 void
-finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
-               const SurfaceSettings& settings, const CrossedFillings* crossed,
+finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry, HolePolicy policy,
+               FinishSettings finish, const CrossedFillings* crossed,
                std::vector<BoundaryLoop>& loops, const RunContext& run)
 {
-  FinishSettings finish;
-  finish.flip_edges = settings.flip_edges;
   finish.open_boundary = true;
-  finish.repair = finish.remake_sheets = settings.repair;
+  finish.remake_sheets = finish.repair;
   finish.are_points_added = !points.stacked.of.empty ();
-  finish.facing = settings.facing;
-  finish.limits = settings.limits;
-  const HolePolicy policy = settings.holes.policy;
   finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
   TriangleMesh other;
   Normals normals;
@@ -153,8 +148,8 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
 } // namespace
 
 Surface
-makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run)
+makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& holes,
+             const FinishSettings& finish, const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
   Surface surface;
@@ -163,17 +158,18 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   makeConsensusMesh (surface, positions, geometry, run);
 
   run.beginStage (Stage::HOLES);
-  std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, settings.holes, run);
+  std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, holes, run);
   const TriangleCost cost (positions, geometry.stars.normals);
   const std::size_t before = mesh.triangles.size ();
   fillHoles (mesh, loops, positions, cost, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
   std::optional<CrossedFillings> crossed;
-  if (settings.repair)
+  if (finish.repair)
     crossed.emplace (mesh, before, loops, positions, cost, run);
 
   run.beginStage (Stage::FLIPS);
-  finishSurface (surface, points, geometry, settings, crossed ? &*crossed : nullptr, loops, run);
+  finishSurface (surface, points, geometry, holes.policy, finish, crossed ? &*crossed : nullptr,
+                 loops, run);
   for (BoundaryLoop& loop : loops) {
     surface.holes_filled += loop.keep_open ? 0 : 1;
     if (isDoubtful (loop.judgement))

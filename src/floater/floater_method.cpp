@@ -217,13 +217,9 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
   // edges are flipped in space.
   run.beginStage (Stage::FLIPS);
-  FinishSettings finish;
-  finish.flip_edges = settings.options.flip_edges;
+  FinishSettings finish = settings.finish;
   finish.largest_fold_share = LARGEST_FOLD_SHARE;
-  finish.limits = settings.limits;
-  finish.facing = settings.facing;
   finish.add_points = !options.as_published;
-  finish.repair = finish.flip_edges && settings.options.remove_self_intersections;
   disc.finish = finishMesh (disc.mesh, points.positions, geometry, finish, run);
   if (!disc.finish.is_repairable)
     disc.problem = {

@@ -40,8 +40,7 @@ struct DiscSettings
 {
   const Options& options; ///< with as_published: nothing beyond TW 385
   StarSettings stars;     ///< for new stars
-  RepairLimits limits{};
-  FacingHints facing{};
+  FinishSettings finish;  ///< what else it does is chosen by makeDisc ()
 };
 
 /// The mesh of a disc, or why there is none.
