@@ -62,21 +62,24 @@ overlap (const Sector& a, const Sector& b)
 }
 
 // Accepts candidates one by one if they fit those accepted before.
-class ConsensusBuilder
+struct ConsensusBuilder
 {
-public:
-  ConsensusBuilder (const Positions& positions, const Normals& normals)
-      : orientation (positions.size ()), positions_ (positions), normals_ (normals),
-        last_sector_ (positions.size (), UNWATCHED)
-  {
-  }
+  static constexpr Index UNWATCHED = NONE - 1;
 
-  // Records sectors at these corners from now on, for later tests.
-  void watch (const Triangle& corners)
+  // The sector of an accepted triangle at a watched corner.
+  struct TakenSector
   {
-    for (Index p : corners)
-      last_sector_[p] = NONE;
-  }
+    Index q, r;   // the other corners
+    Index before; // the sector accepted before it at this corner, or NONE
+  };
+
+  const Positions& positions;
+  const Normals& normals;
+  Orientation orientation = Orientation (positions.size ());
+  std::vector<Triangle> seam = {}; // see Consensus
+  // Per point: latest sector, NONE, or UNWATCHED: there, sectors are not recorded.
+  std::vector<Index> last_sector = std::vector<Index> (positions.size (), UNWATCHED);
+  std::vector<TakenSector> sectors = {};
 
   // Accepts a candidate if it fits. The sectors of one star do not overlap, so candidates of three
   // votes that are offered first need no test of sectors.
@@ -93,35 +96,23 @@ public:
     return fits;
   }
 
-  Orientation orientation;
-  std::vector<Triangle> seam; // see Consensus
-
 private:
-  static constexpr Index UNWATCHED = NONE - 1;
-
-  // The sector of an accepted triangle at a watched corner.
-  struct TakenSector
-  {
-    Index q, r;   // the other corners
-    Index before; // the sector accepted before it at this corner, or NONE
-  };
-
   void occupy (const Triangle& corners)
   {
     for (std::size_t i = 0; i < 3; ++i) {
-      Index& last = last_sector_[corners[i]];
+      Index& last = last_sector[corners[i]];
       if (last == UNWATCHED)
         continue;
-      sectors_.push_back ({corners[(i + 1) % 3], corners[(i + 2) % 3], last});
-      last = static_cast<Index> (sectors_.size () - 1);
+      sectors.push_back ({corners[(i + 1) % 3], corners[(i + 2) % 3], last});
+      last = static_cast<Index> (sectors.size () - 1);
     }
   }
 
   Sector sector (Index p, Index q, Index r) const
   {
-    const TangentFrame frame (normals_[p].cast<double> ());
-    Sector sector{q, r, frame.project (positions_[q] - positions_[p]),
-                  frame.project (positions_[r] - positions_[p])};
+    const TangentFrame frame (normals[p].cast<double> ());
+    Sector sector{q, r, frame.project (positions[q] - positions[p]),
+                  frame.project (positions[r] - positions[p])};
     if (cross (sector.from, sector.to) < 0.0) {
       std::swap (sector.first, sector.last);
       std::swap (sector.from, sector.to);
@@ -135,17 +126,12 @@ private:
     for (std::size_t i = 0; i < 3; ++i) {
       const Index p = corners[i];
       const Sector wanted = sector (p, corners[(i + 1) % 3], corners[(i + 2) % 3]);
-      for (Index s = last_sector_[p]; s != NONE; s = sectors_[s].before)
-        if (overlap (wanted, sector (p, sectors_[s].q, sectors_[s].r)))
+      for (Index s = last_sector[p]; s != NONE; s = sectors[s].before)
+        if (overlap (wanted, sector (p, sectors[s].q, sectors[s].r)))
           return true;
     }
     return false;
   }
-
-  const Positions& positions_;
-  const Normals& normals_;
-  std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
-  std::vector<TakenSector> sectors_;
 };
 
 } // namespace
@@ -207,9 +193,10 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
              });
   run.poll ();
 
-  ConsensusBuilder builder (positions, normals);
+  ConsensusBuilder builder{positions, normals};
   for (std::size_t i = fewer_votes; i < ids.size (); ++i)
-    builder.watch (candidates[ids[i]].corners);
+    for (const Index p : candidates[ids[i]].corners)
+      builder.last_sector[p] = NONE; // sectors here are recorded from now on, for later tests
   ProgressLoop progress (run, ids.size ());
   const auto offer = [&] (std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
