@@ -72,11 +72,9 @@ rowsBeside (const Points& points, const LocalPlanes& planes)
 {
   if (!planes.tree || !planes.normals.empty ())
     return [&planes] (Index p) { return planes.neighbors.row (p); };
-  BesideSearch search{points.workingPositions (), planes};
-  return [&planes, search = std::move (search), row = std::vector<Index> ()] (Index p) mutable {
-    row.assign (planes.neighbors.row (p).begin (), planes.neighbors.row (p).end ());
-    search.extend (p, row);
-    return Row{row.data (), row.data () + row.size ()};
+  return [search = BesideSearch{points.workingPositions (), planes}] (Index p) mutable {
+    search.extend (p);
+    return Row{search.row.data (), search.row.data () + search.row.size ()};
   };
 }
 
@@ -91,13 +89,10 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
     RangeRows beside (n, n);
     parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
       BesideSearch search{positions, planes};
-      std::vector<Index> row;
       for (auto p = static_cast<Index> (first); p < last; ++p) {
-        const Row known = planes.neighbors.row (p);
-        row.assign (known.begin (), known.end ());
-        planes.beside_reach[p] = search.extend (p, row);
-        for (std::size_t i = known.size (); i < row.size (); ++i)
-          beside.add (first, p, row[i]);
+        planes.beside_reach[p] = search.extend (p);
+        for (std::size_t i = planes.neighbors.row (p).size (); i < search.row.size (); ++i)
+          beside.add (first, p, search.row[i]);
       }
     });
     planes.beside = beside.join ();

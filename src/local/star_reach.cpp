@@ -101,13 +101,14 @@ liesBeside (const Line& line, const Vector3d& offset)
 }
 
 float
-BesideSearch::extend (Index p, std::vector<Index>& row)
+BesideSearch::extend (Index p)
 {
   constexpr double ROUNDED_UP = 1.0 + 1e-12, LEAST_COSINE = 1e-9;
   constexpr std::size_t FEWEST = 10;
   constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
   const Vector3d& here = positions[p];
   const Row around = planes.neighbors.row (p);
+  row.assign (around.begin (), around.end ());
   std::optional<Line> line = lineThrough (positions, p, around);
   // Or through the nearer half, if these lie on a line much more closely. Where the farther half has a
   // few points of one line beside, but none of the other, these neither surround the point nor fix its

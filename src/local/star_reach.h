@@ -65,10 +65,10 @@ struct BesideSearch
   const Positions& positions;
   const LocalPlanes& planes;                          ///< with neighbours, spacing and tree
   std::array<std::vector<Neighbor>, 2> found_on = {}; ///< the sides of the last point on a line
+  std::vector<Index> row = {}; ///< neighbours of the last point, then those beside its line
 
-  /// \param row in: the neighbours of p; out: with those beside its line
   /// \return see LocalPlanes::beside_reach
-  float extend (Index p, std::vector<Index>& row);
+  float extend (Index p);
 };
 
 /// Appends lists to others, row by row, in place. O(entries).
