@@ -117,19 +117,17 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
   LocalGeometry geometry;
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
-  if (!begun)
-    begun = makeStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
-                       settings, run, settings.reach_beyond ? &planes : nullptr);
-  geometry.stars = settings.reach_beyond
-                       ? finishStars (positions, planes, std::move (*begun), settings, run)
-                       : std::move (*begun);
+  geometry.stars =
+      begun ? std::move (*begun)
+            : makeStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
+                         settings, run, settings.reach_beyond ? &planes : nullptr);
+  if (settings.reach_beyond)
+    finishStars (positions, planes, settings, run, geometry.stars);
   geometry.neighbors = std::move (planes.neighbors);
   geometry.spacing = std::move (planes.spacing);
-  if (!settings.reach_beyond)
-    return geometry;
   appendRows (geometry.stars.far_neighbors, geometry.neighbors);
   geometry.stars.far_neighbors = {};
-  for (std::size_t p = 0; p < geometry.spacing.size (); ++p)
+  for (std::size_t p = 0; p < geometry.stars.reach.size (); ++p)
     geometry.spacing[p] =
         std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;

@@ -182,27 +182,6 @@ appendRows (const CsrLists& added, CsrLists& lists)
   }
 }
 
-double
-reachOf (const std::vector<PlanarNeighbor>& star, bool open)
-{
-  double reach = 0.0;
-  const std::size_t count = star.size ();
-  const std::size_t sectors = open ? std::max<std::size_t> (1, count) - 1 : count;
-  for (const PlanarNeighbor& neighbor : star) {
-    const double length = neighbor.offset.norm ();
-    const Vector2d back = -neighbor.offset / length;
-    for (std::size_t i = 0; i < sectors && length > reach; ++i) {
-      const Vector2d& a = star[i].offset;
-      const Vector2d& b = star[i + 1 == count ? 0 : i + 1].offset;
-      if (cross (a, back) < 0.0 || cross (back, b) < 0.0 || cross (a, b) <= 0.0)
-        continue;
-      reach = std::max (reach, std::min (length, cross (a, b) / cross (back, b - a)));
-      break;
-    }
-  }
-  return reach;
-}
-
 bool
 StarReach::extend (Index p, const TangentFrame& frame, bool open,
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)

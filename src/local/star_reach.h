@@ -75,15 +75,6 @@ struct BesideSearch
 void
 appendRows (const CsrLists& added, CsrLists& lists);
 
-/// Reach of a star in its plane to opposite sides: the maximum over its neighbours of the smaller
-/// of two lengths: to the neighbour, and from the centre backwards to the border of the star. It is
-/// the edge length on an even sampling, the line distance between scan lines, and the edge length
-/// on the side of the surface beside a hole. O(m^2) for m neighbours.
-/// \param open see PlanarStar::make
-/// \return 0 if the star has nothing opposite to any neighbour
-double
-reachOf (const std::vector<PlanarNeighbor>& star, bool open);
-
 /// Completes stars where the nearest neighbours are too few. A star of the nearest neighbours
 /// equals the star of all points (on the same sheet) if all of its circumcircles lie in the ball
 /// that was searched. Otherwise the points in the circles are searched, and in the gap of an open

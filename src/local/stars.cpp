@@ -117,6 +117,33 @@ private:
   }
 };
 
+// Reach of a star in its plane to opposite sides: the maximum over its neighbours of the smaller
+// of two lengths: to the neighbour, and from the centre backwards to the border of the star. It is
+// the edge length on an even sampling, the line distance between scan lines, and the edge length
+// on the side of the surface beside a hole. O(m^2) for m neighbours.
+// \param open see PlanarStar::make
+// \return 0 if the star has nothing opposite to any neighbour
+double
+reachOf (const std::vector<PlanarNeighbor>& star, bool open)
+{
+  double reach = 0.0;
+  const std::size_t count = star.size ();
+  const std::size_t sectors = open ? std::max<std::size_t> (1, count) - 1 : count;
+  for (const PlanarNeighbor& neighbor : star) {
+    const double length = neighbor.offset.norm ();
+    const Vector2d back = -neighbor.offset / length;
+    for (std::size_t i = 0; i < sectors && length > reach; ++i) {
+      const Vector2d& a = star[i].offset;
+      const Vector2d& b = star[i + 1 == count ? 0 : i + 1].offset;
+      if (cross (a, back) < 0.0 || cross (back, b) < 0.0 || cross (a, b) <= 0.0)
+        continue;
+      reach = std::max (reach, std::min (length, cross (a, b) / cross (back, b - a)));
+      break;
+    }
+  }
+  return reach;
+}
+
 } // namespace
 
 Vector3d
@@ -178,9 +205,9 @@ makeStars (const Positions& positions, const CsrLists& neighbors, const Normals&
   return stars;
 }
 
-Stars
-finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
-             const StarSettings& settings, const RunContext& run)
+void
+finishStars (const Positions& positions, const LocalPlanes& planes, const StarSettings& settings,
+             const RunContext& run, Stars& stars)
 {
   // An edge longer than this, in the larger reach of its ends, crosses a hole. Measured on Delaunay
   // triangulations: 999 of 1000 edges are below 1.7 on jittered grids, Poisson disks, scan lines
@@ -189,41 +216,40 @@ finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
   const std::size_t n = positions.size ();
   // Maximum over the nearest neighbours as well: in a noisy row of points, some stars are narrow.
   constexpr std::size_t NEAREST = 6;
-  const std::vector<float> own_reach = begun.reach;
+  const std::vector<float> own_reach = stars.reach;
   parallelPoints (run, n, [&] (Index p) {
     for (const Index q : planes.neighbors.first (p, NEAREST))
-      begun.reach[p] = std::max (begun.reach[p], own_reach[q]);
+      stars.reach[p] = std::max (stars.reach[p], own_reach[q]);
   });
-  if (begun.far_neighbors.ids.empty ())
-    return begun;
+  if (stars.far_neighbors.ids.empty ())
+    return;
   RangeRows made (n, n), far (n, n);
   parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
     StarMaker maker{positions, planes.neighbors, planes.normals, settings, nullptr};
     std::vector<Index> near; // of the far neighbours
     for (auto p = static_cast<Index> (first); p < last; ++p) {
-      const Row all_far = begun.far_neighbors.row (p);
+      const Row all_far = stars.far_neighbors.row (p);
       near.clear ();
       std::copy_if (all_far.begin (), all_far.end (), std::back_inserter (near), [&] (Index q) {
-        const auto reach = static_cast<double> (std::max (begun.reach[p], begun.reach[q]));
+        const auto reach = static_cast<double> (std::max (stars.reach[p], stars.reach[q]));
         return (positions[q] - positions[p]).norm () <= GAP_RATIO * reach;
       });
       for (const Index q : near)
         far.add (first, p, q);
       if (near.size () == all_far.size ()) {
-        for (const Index q : begun.neighbors.row (p))
+        for (const Index q : stars.neighbors.row (p))
           made.add (first, p, q);
         continue;
       }
-      begun.open[p] = maker.make (p, near, begun.normals[p]) ? 1 : 0;
+      stars.open[p] = maker.make (p, near, stars.normals[p]) ? 1 : 0;
       for (const PlanarNeighbor& neighbor : maker.star.neighbors)
         made.add (first, p, neighbor.point);
     }
   });
-  begun.neighbors = {};
-  begun.far_neighbors = {};
-  begun.neighbors = made.join ();
-  begun.far_neighbors = far.join ();
-  return begun;
+  stars.neighbors = {};
+  stars.far_neighbors = {};
+  stars.neighbors = made.join ();
+  stars.far_neighbors = far.join ();
 }
 
 std::vector<float>
