@@ -5,7 +5,10 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
+#include <cstdlib>
+#include <map>
 #include <tuple>
+#include <unordered_set>
 
 namespace pcl::floater {
 namespace {
@@ -135,6 +138,86 @@ private:
 };
 
 } // namespace
+
+SignedSets::Place
+Orientation::placeOf (const Triangle& corners, std::uint8_t clockwise, std::size_t corner)
+{
+  SignedSets::Place place = sides_.find (corners[corner]);
+  place.flipped = place.flipped != (((clockwise >> corner) & 1U) != 0);
+  return place;
+}
+
+bool
+Orientation::join (const Triangle& corners, std::uint8_t clockwise)
+{
+  using Place = SignedSets::Place;
+  const Place a = placeOf (corners, clockwise, 0), b = placeOf (corners, clockwise, 1),
+              c = placeOf (corners, clockwise, 2);
+  const auto contradict = [] (const Place& p, const Place& q) {
+    return p.root == q.root && p.flipped != q.flipped;
+  };
+  if (contradict (a, b) || contradict (a, c) || contradict (b, c))
+    return false;
+  if (a.root != b.root)
+    sides_.join (a.root, b.root, a.flipped != b.flipped);
+  if (a.root != c.root)
+    sides_.join (a.root, c.root, a.flipped != c.flipped);
+  return true;
+}
+
+void
+Orientation::vote (const std::vector<Candidate>& candidates, const Row& voters,
+                   const RunContext& run)
+{
+  ProgressLoop progress (run);
+  while (true) {
+    // Of two sets, by their representatives: positive for the same side, negative for opposite ones.
+    std::map<std::pair<Index, Index>, int> sums;
+    for (const Index voter : voters) {
+      progress.next ();
+      const Candidate& c = candidates[voter];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SignedSets::Place a = placeOf (c.corners, c.clockwise, i),
+                                b = placeOf (c.corners, c.clockwise, (i + 1U) % 3U);
+        if (a.root != b.root)
+          sums[std::minmax (a.root, b.root)] += a.flipped != b.flipped ? -c.votes : c.votes;
+      }
+    }
+    if (sums.empty ())
+      return;
+    std::vector<std::pair<std::pair<Index, Index>, int>> votes (sums.begin (), sums.end ());
+    std::stable_sort (votes.begin (), votes.end (), [] (const auto& one, const auto& other) {
+      return std::abs (one.second) > std::abs (other.second);
+    });
+    std::unordered_set<Index> joined;
+    for (const auto& [sets, weight] : votes) {
+      progress.next ();
+      const bool is_first_of_a = joined.insert (sets.first).second;
+      const bool is_first_of_b = joined.insert (sets.second).second;
+      if (is_first_of_a || is_first_of_b)
+        sides_.join (sets.first, sets.second, weight < 0);
+    }
+  }
+}
+
+Triangle
+Orientation::turned (Triangle corners, std::uint8_t clockwise)
+{
+  if (placeOf (corners, clockwise, 0).flipped)
+    std::swap (corners[1], corners[2]);
+  return corners;
+}
+
+void
+Orientation::turn (Normals& normals, const RunContext& run)
+{
+  ProgressLoop progress (run);
+  for (Index p = 0; p < normals.size (); ++p) {
+    progress.next ();
+    if (sides_.find (p).flipped)
+      normals[p] = -normals[p];
+  }
+}
 
 std::vector<Candidate>
 findCandidates (const Positions& positions, const Stars& stars, const Normals& normals,

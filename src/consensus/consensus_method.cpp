@@ -6,8 +6,48 @@
 #include "mesh/crossed_fillings.h"
 #include "mesh/hole_filling.h"
 
+#include <map>
+
 namespace pcl::floater {
 namespace {
+// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
+// are connected by edges, if it is long enough. An orientation that spreads round such a surface
+// contradicts itself along a whole row across it; a wrong triangle between two sheets stands
+// alone, and where thin sheets are glued, there are many short rows. Fails for strips less than
+// about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
+// \param contradicting see Consensus::seam
+// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
+std::vector<Triangle>
+findOrientationSeam (const std::vector<Triangle>& contradicting)
+{
+  // Scans of two-sided surfaces had rows of up to 5, Moebius strips 4 spacings wide rows of 8, and
+  // strips 12 spacings wide rows of 37.
+  constexpr std::size_t SHORTEST_SEAM = 8;
+  DisjointSets rows (contradicting.size ());
+  std::map<std::pair<Index, Index>, Index> triangle_at; // each edge
+  for (Index t = 0; t < contradicting.size (); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto edge = std::minmax (contradicting[t][i], contradicting[t][(i + 1) % 3]);
+      if (const auto [other, is_new] = triangle_at.emplace (edge, t); !is_new)
+        rows.join (t, other->second);
+    }
+  std::vector<std::size_t> length (contradicting.size (), 0);
+  for (Index t = 0; t < contradicting.size (); ++t)
+    ++length[rows.find (t)];
+  const auto longest = std::max_element (length.begin (), length.end ());
+  std::vector<Triangle> row;
+  // Of that length. Moebius strips, noisy or at random, have up to 4.1, glued leaves 6.4.
+  constexpr std::size_t MOST_ROWS = 5;
+  if (longest == length.end () || *longest < SHORTEST_SEAM ||
+      MOST_ROWS * *longest < contradicting.size ())
+    return row;
+  const auto root = static_cast<Index> (longest - length.begin ());
+  for (Index t = 0; t < contradicting.size (); ++t)
+    if (rows.find (t) == root)
+      row.push_back (contradicting[t]);
+  return row;
+}
+
 // Makes the manifold part of the consensus, before its holes are filled, and orients the normals like
 // it. O(n + m log m) for m doubtful candidates.
 // \param geometry as of makeSurface ()
