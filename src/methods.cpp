@@ -286,9 +286,8 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                   : options.topology == Topology::DISC
                                       ? "asked for"
                                       : "its boundary loop is given";
-  Disc disc =
-      makeDisc (points, geometry, findLoop (points, geometry, request),
-                {options, starSettings (options), finishSettings (points, request)}, request.run);
+  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request), options,
+                        finishSettings (points, request), request.run);
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
