@@ -137,10 +137,9 @@ isNoise (const Points& points)
 
 // Finishes a mesh with filled loops. Where making zones anew does not cure what fillings cross, begins
 // again with others.
-// \param crossed these fillings; or nullptr
 void
 finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry, HolePolicy policy,
-               FinishSettings finish, const CrossedFillings* crossed,
+               FinishSettings finish, const std::optional<CrossedFillings>& crossed,
                std::vector<BoundaryLoop>& loops, const RunContext& run)
 {
   finish.open_boundary = true;
@@ -158,7 +157,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry, 
     loops = std::move (changed);
     return true;
   };
-  if (crossed != nullptr && !crossed->empty ()) {
+  if (crossed && !crossed->empty ()) {
     if (isNoise (points)) { // hardly any zone is made anew, and other fillings would be asked for
       if (replace (Flags (points.size (), 1)))
         surface.mesh = std::exchange (other, {});
@@ -208,8 +207,7 @@ makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& h
     crossed.emplace (mesh, before, loops, positions, cost, run);
 
   run.beginStage (Stage::FLIPS);
-  finishSurface (surface, points, geometry, holes.policy, finish, crossed ? &*crossed : nullptr,
-                 loops, run);
+  finishSurface (surface, points, geometry, holes.policy, finish, crossed, loops, run);
   for (BoundaryLoop& loop : loops) {
     surface.holes_filled += loop.keep_open ? 0 : 1;
     if (isDoubtful (loop.judgement))
