@@ -188,13 +188,12 @@ loopOfSurface (const Points& points, LocalGeometry geometry, const Request& requ
     planes = fitLocalPlanes (net, std::move (planes), stars, run);
     geometry = makeLocalGeometry (net, std::move (planes), stars, run);
   }
-  SurfaceSettings settings;
-  settings.holes.policy = HolePolicy::KEEP_LARGEST;
-  settings.limits = request.limits.repair;
+  HoleOptions holes;
+  holes.policy = HolePolicy::KEEP_LARGEST;
   Boundary boundary;
   double longest = 0.0;
   for (std::vector<Index>& loop :
-       boundaryLoops (makeSurface (net, geometry, settings, run).mesh, run)) {
+       boundaryLoops (makeSurface (net, geometry, holes, {}, run).mesh, run)) {
     boundary.candidates += loop.size ();
     const double length = perimeter (net.positions, loop);
     if (length > longest) {
@@ -257,6 +256,18 @@ facingHints (const Points& points, const Request& request)
   return hints;
 }
 
+// How a disc or a surface is finished, as the options ask for it.
+FinishSettings
+finishSettings (const Points& points, const Request& request)
+{
+  FinishSettings settings;
+  settings.flip_edges = request.options.flip_edges;
+  settings.limits = request.limits.repair;
+  settings.facing = facingHints (points, request);
+  settings.repair = repairsFlaws (request.options);
+  return settings;
+}
+
 } // namespace
 
 Problem
@@ -269,10 +280,8 @@ reconstructDisc (const Points& points, LocalGeometry geometry, const Request& re
                                   : options.topology == Topology::DISC
                                       ? "asked for"
                                       : "its boundary loop is given";
-  Disc disc = makeDisc (
-      points, geometry, findLoop (points, geometry, request),
-      {options, starSettings (options), request.limits.repair, facingHints (points, request)},
-      request.run);
+  Disc disc = makeDisc (points, geometry, findLoop (points, geometry, request), options,
+                        finishSettings (points, request), request.run);
   reportDisc (points, disc, result.report);
   if (disc.problem)
     return disc.problem;
@@ -284,10 +293,8 @@ Problem
 reconstructSurface (const Points& points, LocalGeometry geometry, const Request& request,
                     Result& result)
 {
-  const Options& options = request.options;
-  const SurfaceSettings settings{options.holes, options.flip_edges, repairsFlaws (options),
-                                 request.limits.repair, facingHints (points, request)};
-  Surface surface = makeSurface (points, geometry, settings, request.run);
+  Surface surface = makeSurface (points, geometry, request.options.holes,
+                                 finishSettings (points, request), request.run);
   result.report.topology = Topology::SURFACE;
   reportLoops (points, surface, result.report);
   return useMesh ({std::move (surface.mesh), std::move (surface.finish)}, points,

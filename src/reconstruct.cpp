@@ -36,6 +36,22 @@ isOpen (const Stars& stars)
   return 16.0 * open * open >= stars.open.size ();
 }
 
+// Whether points have to be projected before they are connected: enough are noisy, and their stars
+// disagree. At creases and thin sheets of clean clouds points look noisy, but their stars agree.
+// O(n).
+// \param agreement of the star of each point, see starAgreement
+// \param disturbed_share mean, over all points, of the share of a noisy point's star neighbours
+//     that do not have it in their stars
+bool
+isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share)
+{
+  double disturbed = 0.0;
+  for (std::size_t p = 0; p < agreement.size (); ++p)
+    if (noise.at_point[p] > 0.0F)
+      disturbed += 1.0 - static_cast<double> (agreement[p]);
+  return disturbed >= disturbed_share * static_cast<double> (agreement.size ());
+}
+
 // The points that are not on the user's loop. Equal points are represented by one of them.
 std::vector<Index>
 exceptLoop (std::vector<Index> found, const Points& points, const Options& options)
@@ -237,14 +253,14 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     return options.denoise && noise.noisy_points > 0 &&
            isStrong (noise, starAgreement (geometry.stars, run), disturbed_share);
   };
-  noise.is_strong = isStrongNow (DISTURBED);
+  bool is_strong = isStrongNow (DISTURBED);
   std::vector<Index> scatter;
   if (options.denoise || drops_scatter)
     scatter = findScatter (geometry, noise, is_certain, run);
   if (drops_scatter)
     scatter = exceptLoop (std::move (scatter), points, options);
   // Errors along rays look like noise and scatter; of what is open, the sensor tells the front.
-  const bool looks_noisy = noise.is_strong || !scatter.empty ();
+  const bool looks_noisy = is_strong || !scatter.empty ();
   if (may_be_seen && (looks_noisy || isOpen (geometry.stars)))
     if (const std::optional<Problem> problem = reconstructFrom (
             [&] (Index p) { return geometry.neighbors.row (p); }, SearchReason::OPEN))
@@ -266,11 +282,11 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
     planes = fitLocalPlanes (points, searchPlanes (points, settings, request), stars, run);
     noise = measureNoise (points.positions, planes.neighbors, run);
     geometry = makeLocalGeometry (points, std::move (planes), stars, run);
-    noise.is_strong = isStrongNow (DISTURBED);
+    is_strong = isStrongNow (DISTURBED);
   }
   if (!options.denoise)
     noise = {};
-  if (noise.is_strong) {
+  if (is_strong) {
     const bool may_be_hopeless = isStrongNow (HOPELESS);
     geometry = projectNoise (points, std::move (geometry), noise, settings, request);
     if (may_be_hopeless && noise.noisy_points == 0)
@@ -279,7 +295,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
               "spacing: smooth the cloud, thin it by a voxel grid, or use a method that smooths, "
               "such as Poisson reconstruction; denoise off connects them nevertheless"};
   }
-  reportNoise (noise, noise.is_strong && noise.noisy_points > 0, report);
+  reportNoise (noise, is_strong && noise.noisy_points > 0, report);
   noise = {};
   reportCoordinateGrid (points, findCoordinateGrid (points, geometry.meshSpacing ()), report);
 

@@ -5,7 +5,10 @@
 #include "core/geometry.h"
 #include "core/parallel.h"
 
+#include <cstdlib>
+#include <map>
 #include <tuple>
+#include <unordered_set>
 
 namespace pcl::floater {
 namespace {
@@ -62,21 +65,24 @@ overlap (const Sector& a, const Sector& b)
 }
 
 // Accepts candidates one by one if they fit those accepted before.
-class ConsensusBuilder
+struct ConsensusBuilder
 {
-public:
-  ConsensusBuilder (const Positions& positions, const Normals& normals)
-      : orientation (positions.size ()), positions_ (positions), normals_ (normals),
-        last_sector_ (positions.size (), UNWATCHED)
-  {
-  }
+  static constexpr Index UNWATCHED = NONE - 1;
 
-  // Records sectors at these corners from now on, for later tests.
-  void watch (const Triangle& corners)
+  // The sector of an accepted triangle at a watched corner.
+  struct TakenSector
   {
-    for (Index p : corners)
-      last_sector_[p] = NONE;
-  }
+    Index q, r;   // the other corners
+    Index before; // the sector accepted before it at this corner, or NONE
+  };
+
+  const Positions& positions;
+  const Normals& normals;
+  Orientation orientation = Orientation (positions.size ());
+  std::vector<Triangle> seam = {}; // see Consensus
+  // Per point: latest sector, NONE, or UNWATCHED: there, sectors are not recorded.
+  std::vector<Index> last_sector = std::vector<Index> (positions.size (), UNWATCHED);
+  std::vector<TakenSector> sectors = {};
 
   // Accepts a candidate if it fits. The sectors of one star do not overlap, so candidates of three
   // votes that are offered first need no test of sectors.
@@ -93,35 +99,23 @@ public:
     return fits;
   }
 
-  Orientation orientation;
-  std::vector<Triangle> seam; // see Consensus
-
 private:
-  static constexpr Index UNWATCHED = NONE - 1;
-
-  // The sector of an accepted triangle at a watched corner.
-  struct TakenSector
-  {
-    Index q, r;   // the other corners
-    Index before; // the sector accepted before it at this corner, or NONE
-  };
-
   void occupy (const Triangle& corners)
   {
     for (std::size_t i = 0; i < 3; ++i) {
-      Index& last = last_sector_[corners[i]];
+      Index& last = last_sector[corners[i]];
       if (last == UNWATCHED)
         continue;
-      sectors_.push_back ({corners[(i + 1) % 3], corners[(i + 2) % 3], last});
-      last = static_cast<Index> (sectors_.size () - 1);
+      sectors.push_back ({corners[(i + 1) % 3], corners[(i + 2) % 3], last});
+      last = static_cast<Index> (sectors.size () - 1);
     }
   }
 
   Sector sector (Index p, Index q, Index r) const
   {
-    const TangentFrame frame (normals_[p].cast<double> ());
-    Sector sector{q, r, frame.project (positions_[q] - positions_[p]),
-                  frame.project (positions_[r] - positions_[p])};
+    const TangentFrame frame (normals[p].cast<double> ());
+    Sector sector{q, r, frame.project (positions[q] - positions[p]),
+                  frame.project (positions[r] - positions[p])};
     if (cross (sector.from, sector.to) < 0.0) {
       std::swap (sector.first, sector.last);
       std::swap (sector.from, sector.to);
@@ -135,20 +129,95 @@ private:
     for (std::size_t i = 0; i < 3; ++i) {
       const Index p = corners[i];
       const Sector wanted = sector (p, corners[(i + 1) % 3], corners[(i + 2) % 3]);
-      for (Index s = last_sector_[p]; s != NONE; s = sectors_[s].before)
-        if (overlap (wanted, sector (p, sectors_[s].q, sectors_[s].r)))
+      for (Index s = last_sector[p]; s != NONE; s = sectors[s].before)
+        if (overlap (wanted, sector (p, sectors[s].q, sectors[s].r)))
           return true;
     }
     return false;
   }
-
-  const Positions& positions_;
-  const Normals& normals_;
-  std::vector<Index> last_sector_; // per point: latest sector, NONE, or UNWATCHED
-  std::vector<TakenSector> sectors_;
 };
 
 } // namespace
+
+SignedSets::Place
+Orientation::placeOf (const Triangle& corners, std::uint8_t clockwise, std::size_t corner)
+{
+  SignedSets::Place place = sides_.find (corners[corner]);
+  place.flipped = place.flipped != (((clockwise >> corner) & 1U) != 0);
+  return place;
+}
+
+bool
+Orientation::join (const Triangle& corners, std::uint8_t clockwise)
+{
+  using Place = SignedSets::Place;
+  const Place a = placeOf (corners, clockwise, 0), b = placeOf (corners, clockwise, 1),
+              c = placeOf (corners, clockwise, 2);
+  const auto contradict = [] (const Place& p, const Place& q) {
+    return p.root == q.root && p.flipped != q.flipped;
+  };
+  if (contradict (a, b) || contradict (a, c) || contradict (b, c))
+    return false;
+  if (a.root != b.root)
+    sides_.join (a.root, b.root, a.flipped != b.flipped);
+  if (a.root != c.root)
+    sides_.join (a.root, c.root, a.flipped != c.flipped);
+  return true;
+}
+
+void
+Orientation::vote (const std::vector<Candidate>& candidates, const Row& voters,
+                   const RunContext& run)
+{
+  ProgressLoop progress (run);
+  while (true) {
+    // Of two sets, by their representatives: positive for the same side, negative for opposite ones.
+    std::map<std::pair<Index, Index>, int> sums;
+    for (const Index voter : voters) {
+      progress.next ();
+      const Candidate& c = candidates[voter];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SignedSets::Place a = placeOf (c.corners, c.clockwise, i),
+                                b = placeOf (c.corners, c.clockwise, (i + 1U) % 3U);
+        if (a.root != b.root)
+          sums[std::minmax (a.root, b.root)] += a.flipped != b.flipped ? -c.votes : c.votes;
+      }
+    }
+    if (sums.empty ())
+      return;
+    std::vector<std::pair<std::pair<Index, Index>, int>> votes (sums.begin (), sums.end ());
+    std::stable_sort (votes.begin (), votes.end (), [] (const auto& one, const auto& other) {
+      return std::abs (one.second) > std::abs (other.second);
+    });
+    std::unordered_set<Index> joined;
+    for (const auto& [sets, weight] : votes) {
+      progress.next ();
+      const bool is_first_of_a = joined.insert (sets.first).second;
+      const bool is_first_of_b = joined.insert (sets.second).second;
+      if (is_first_of_a || is_first_of_b)
+        sides_.join (sets.first, sets.second, weight < 0);
+    }
+  }
+}
+
+Triangle
+Orientation::turned (Triangle corners, std::uint8_t clockwise)
+{
+  if (placeOf (corners, clockwise, 0).flipped)
+    std::swap (corners[1], corners[2]);
+  return corners;
+}
+
+void
+Orientation::turn (Normals& normals, const RunContext& run)
+{
+  ProgressLoop progress (run);
+  for (Index p = 0; p < normals.size (); ++p) {
+    progress.next ();
+    if (sides_.find (p).flipped)
+      normals[p] = -normals[p];
+  }
+}
 
 std::vector<Candidate>
 findCandidates (const Positions& positions, const Stars& stars, const Normals& normals,
@@ -207,9 +276,10 @@ buildConsensus (const Positions& positions, std::vector<Candidate> candidates, N
              });
   run.poll ();
 
-  ConsensusBuilder builder (positions, normals);
+  ConsensusBuilder builder{positions, normals};
   for (std::size_t i = fewer_votes; i < ids.size (); ++i)
-    builder.watch (candidates[ids[i]].corners);
+    for (const Index p : candidates[ids[i]].corners)
+      builder.last_sector[p] = NONE; // sectors here are recorded from now on, for later tests
   ProgressLoop progress (run, ids.size ());
   const auto offer = [&] (std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {

@@ -64,16 +64,6 @@ private:
   SignedSets sides_;
 };
 
-/// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
-/// are connected by edges, if it is long enough. An orientation that spreads round such a surface
-/// contradicts itself along a whole row across it; a wrong triangle between two sheets stands
-/// alone, and where thin sheets are glued, there are many short rows. Fails for strips less than
-/// about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
-/// \param contradicting see Consensus::seam
-/// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
-std::vector<Triangle>
-findOrientationSeam (const std::vector<Triangle>& contradicting);
-
 /// Consistently oriented triangles. Their sectors around each point do not overlap in its tangent
 /// plane, so every edge has one or two. A point may still have several fans (see manifoldPart).
 struct Consensus

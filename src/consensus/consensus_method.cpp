@@ -6,8 +6,48 @@
 #include "mesh/crossed_fillings.h"
 #include "mesh/hole_filling.h"
 
+#include <map>
+
 namespace pcl::floater {
 namespace {
+// Finds where a one-sided surface was cut open: the longest row of contradicting triangles that
+// are connected by edges, if it is long enough. An orientation that spreads round such a surface
+// contradicts itself along a whole row across it; a wrong triangle between two sheets stands
+// alone, and where thin sheets are glued, there are many short rows. Fails for strips less than
+// about 4 spacings wide: their rows are too short. O(m log m) for m triangles.
+// \param contradicting see Consensus::seam
+// \return the triangles of the row, in the order of `contradicting`; empty if it is too short
+std::vector<Triangle>
+findOrientationSeam (const std::vector<Triangle>& contradicting)
+{
+  // Scans of two-sided surfaces had rows of up to 5, Moebius strips 4 spacings wide rows of 8, and
+  // strips 12 spacings wide rows of 37.
+  constexpr std::size_t SHORTEST_SEAM = 8;
+  DisjointSets rows (contradicting.size ());
+  std::map<std::pair<Index, Index>, Index> triangle_at; // each edge
+  for (Index t = 0; t < contradicting.size (); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto edge = std::minmax (contradicting[t][i], contradicting[t][(i + 1) % 3]);
+      if (const auto [other, is_new] = triangle_at.emplace (edge, t); !is_new)
+        rows.join (t, other->second);
+    }
+  std::vector<std::size_t> length (contradicting.size (), 0);
+  for (Index t = 0; t < contradicting.size (); ++t)
+    ++length[rows.find (t)];
+  const auto longest = std::max_element (length.begin (), length.end ());
+  std::vector<Triangle> row;
+  // Of that length. Moebius strips, noisy or at random, have up to 4.1, glued leaves 6.4.
+  constexpr std::size_t MOST_ROWS = 5;
+  if (longest == length.end () || *longest < SHORTEST_SEAM ||
+      MOST_ROWS * *longest < contradicting.size ())
+    return row;
+  const auto root = static_cast<Index> (longest - length.begin ());
+  for (Index t = 0; t < contradicting.size (); ++t)
+    if (rows.find (t) == root)
+      row.push_back (contradicting[t]);
+  return row;
+}
+
 // Makes the manifold part of the consensus, before its holes are filled, and orients the normals like
 // it. O(n + m log m) for m doubtful candidates.
 // \param geometry as of makeSurface ()
@@ -97,20 +137,14 @@ isNoise (const Points& points)
 
 // Finishes a mesh with filled loops. Where making zones anew does not cure what fillings cross, begins
 // again with others.
-// \param crossed these fillings; or nullptr
 void
-finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
-               const SurfaceSettings& settings, const CrossedFillings* crossed,
+finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry, HolePolicy policy,
+               FinishSettings finish, const std::optional<CrossedFillings>& crossed,
                std::vector<BoundaryLoop>& loops, const RunContext& run)
 {
-  FinishSettings finish;
-  finish.flip_edges = settings.flip_edges;
   finish.open_boundary = true;
-  finish.repair = finish.remake_sheets = settings.repair;
+  finish.remake_sheets = finish.repair;
   finish.are_points_added = !points.stacked.of.empty ();
-  finish.facing = settings.facing;
-  finish.limits = settings.limits;
-  const HolePolicy policy = settings.holes.policy;
   finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
   TriangleMesh other;
   Normals normals;
@@ -123,7 +157,7 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
     loops = std::move (changed);
     return true;
   };
-  if (crossed != nullptr && !crossed->empty ()) {
+  if (crossed && !crossed->empty ()) {
     if (isNoise (points)) { // hardly any zone is made anew, and other fillings would be asked for
       if (replace (Flags (points.size (), 1)))
         surface.mesh = std::exchange (other, {});
@@ -153,8 +187,8 @@ finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry,
 } // namespace
 
 Surface
-makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run)
+makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& holes,
+             const FinishSettings& finish, const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
   Surface surface;
@@ -163,17 +197,17 @@ makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSetting
   makeConsensusMesh (surface, positions, geometry, run);
 
   run.beginStage (Stage::HOLES);
-  std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, settings.holes, run);
+  std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, holes, run);
   const TriangleCost cost (positions, geometry.stars.normals);
   const std::size_t before = mesh.triangles.size ();
   fillHoles (mesh, loops, positions, cost, run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
   std::optional<CrossedFillings> crossed;
-  if (settings.repair)
+  if (finish.repair)
     crossed.emplace (mesh, before, loops, positions, cost, run);
 
   run.beginStage (Stage::FLIPS);
-  finishSurface (surface, points, geometry, settings, crossed ? &*crossed : nullptr, loops, run);
+  finishSurface (surface, points, geometry, holes.policy, finish, crossed, loops, run);
   for (BoundaryLoop& loop : loops) {
     surface.holes_filled += loop.keep_open ? 0 : 1;
     if (isDoubtful (loop.judgement))

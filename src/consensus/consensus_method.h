@@ -10,15 +10,6 @@
 #include "points/points.h"
 
 namespace pcl::floater {
-struct SurfaceSettings
-{
-  HoleOptions holes = {};
-  bool flip_edges = true;
-  bool repair = false; ///< repair flaws, and make zones anew where several sheets are near
-  RepairLimits limits = {};
-  FacingHints facing = {};
-};
-
 /// The mesh of a surface and how it was made.
 struct Surface
 {
@@ -36,8 +27,10 @@ struct Surface
 /// positions; the mesh is finished by the input positions. O(n log n).
 /// \param geometry in: of the points; out: without stars, but with their normals, oriented like the
 ///     mesh
+/// \param finish   what else it does is chosen here; to repair is also to make zones anew where
+///     several sheets are near
 Surface
-makeSurface (const Points& points, LocalGeometry& geometry, const SurfaceSettings& settings,
-             const RunContext& run);
+makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& holes,
+             const FinishSettings& finish, const RunContext& run);
 
 } // namespace pcl::floater

@@ -5,6 +5,7 @@
 #include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
+#include "mesh/trimming.h"
 #include "mesh/vertex_stars.h"
 
 #include <set>
@@ -84,8 +85,7 @@ pruneFans (Consensus& consensus, std::size_t points, const RunContext& run)
   }
 }
 
-// Removes islands from a mesh. Returns whether there are any.
-bool
+void
 removeIslands (TriangleMesh& mesh, const Positions& positions, const Normals& normals,
                const CsrLists& neighbors, std::size_t smallest_island, const RunContext& run)
 {
@@ -129,12 +129,10 @@ removeIslands (TriangleMesh& mesh, const Positions& positions, const Normals& no
     return own.pairs[1] > 0.0 && (isSmall (c) || own.heights[1] * own.pairs[0] <
                                                      SAME_SURFACE * own.heights[0] * own.pairs[1]);
   };
-  std::size_t left = 0;
+  Flags is_removed (component.size ());
   for (Index t = 0; t < component.size (); ++t)
-    if (!isIsland (component[t]))
-      mesh.triangles[left++] = mesh.triangles[t];
-  mesh.triangles.resize (left);
-  return left < component.size ();
+    is_removed[t] = isIsland (component[t]) ? 1 : 0;
+  removeTriangles (mesh, std::move (is_removed), run);
 }
 
 } // namespace
@@ -148,11 +146,9 @@ manifoldPart (Consensus consensus, const Positions& positions, const Normals& no
   TriangleMesh mesh;
   mesh.triangles = std::move (consensus.triangles);
   consensus = {};
-  bool is_manifold = mesh.connect (points, run);
-  if (is_manifold && removeIslands (mesh, positions, normals, neighbors, smallest_island, run))
-    is_manifold = mesh.connect (points, run);
-  if (!is_manifold)
+  if (!mesh.connect (points, run))
     throw std::logic_error ("the consensus is no manifold");
+  removeIslands (mesh, positions, normals, neighbors, smallest_island, run);
   return mesh;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists of indices in compressed sparse rows, and the limits of 32-bit indices.
+// Lists of indices, many in compressed sparse rows, and the limits of 32-bit indices.
 #pragma once
 
 #include "core/types.h"
@@ -106,6 +106,18 @@ makeCsrLists (std::size_t rows, Visit&& visit)
   visit ([&] (std::size_t row, Index id) { lists.ids[lists.offsets[row + 1]++] = id; });
   lists.offsets.pop_back ();
   return lists;
+}
+
+/// The indices below `count` for which a test is true, ascending.
+template <typename Test>
+std::vector<Index>
+indicesWhere (std::size_t count, Test&& test)
+{
+  std::vector<Index> indices;
+  for (Index i = 0; i < count; ++i)
+    if (test (i))
+      indices.push_back (i);
+  return indices;
 }
 
 /// The place of a value in an ascending list; NONE if it is not there. O(log n).

@@ -11,10 +11,9 @@ namespace pcl::floater {
 constexpr double PI = 3.14159265358979323846;
 constexpr double DEGREE = PI / 180.0; ///< in radians
 
-/// Length of a closed loop of points in space or in the plane.
-template <typename Vector>
-double
-perimeter (const std::vector<Vector>& positions, const std::vector<Index>& loop)
+/// Length of a closed loop of points.
+inline double
+perimeter (const Positions& positions, const std::vector<Index>& loop)
 {
   double length = 0.0;
   for (std::size_t i = 0; i < loop.size (); ++i)

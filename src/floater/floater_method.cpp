@@ -184,8 +184,8 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
 }
 
 Disc
-makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
-          const DiscSettings& settings, const RunContext& run)
+makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary, const Options& options,
+          FinishSettings finish, const RunContext& run)
 {
   Disc disc;
   disc.boundary = std::move (boundary);
@@ -196,17 +196,16 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
 
   // Section 2.1: the weights may be for all neighbours; the boundary needed Delaunay stars.
   run.beginStage (Stage::WEIGHTS);
-  StarSettings star_settings = settings.stars;
-  const DiscOptions& options = settings.options.disc;
-  const Neighborhood neighborhood = settings.options.neighbors.kind;
+  const Neighborhood neighborhood = options.neighbors.kind;
   if (neighborhood == Neighborhood::NEAREST || neighborhood == Neighborhood::BALL) {
-    star_settings.with_all = true;
+    StarSettings stars{options.filter_sheets};
+    stars.with_all = true;
     geometry.stars = makeStars (positions, geometry.neighbors, geometry.stars.normals,
-                                Rows::all (positions.size ()), star_settings, run);
+                                Rows::all (positions.size ()), stars, run);
   }
 
   // Section 4, equations (1) to (3): weights, the loop on a convex curve, the linear system.
-  parameterize (positions, geometry.stars, options, run, disc);
+  parameterize (positions, geometry.stars, options.disc, run, disc);
   if (disc.problem)
     return disc;
 
@@ -217,13 +216,8 @@ makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
   // Beyond TW 385: points without a triangle, such as coinciding parameters, are inserted, and
   // edges are flipped in space.
   run.beginStage (Stage::FLIPS);
-  FinishSettings finish;
-  finish.flip_edges = settings.options.flip_edges;
   finish.largest_fold_share = LARGEST_FOLD_SHARE;
-  finish.limits = settings.limits;
-  finish.facing = settings.facing;
-  finish.add_points = !options.as_published;
-  finish.repair = finish.flip_edges && settings.options.remove_self_intersections;
+  finish.add_points = !options.disc.as_published;
   disc.finish = finishMesh (disc.mesh, points.positions, geometry, finish, run);
   if (!disc.finish.is_repairable)
     disc.problem = {

@@ -36,14 +36,6 @@ reachLoop (const CsrLists& neighbors, const std::vector<Index>& loop, const RunC
 std::vector<Vector2d>
 layLoop (const Positions& positions, const std::vector<Index>& loop, const DomainOptions& options);
 
-struct DiscSettings
-{
-  const Options& options; ///< with as_published: nothing beyond TW 385
-  StarSettings stars;     ///< for new stars
-  RepairLimits limits{};
-  FacingHints facing{};
-};
-
 /// The mesh of a disc, or why there is none.
 struct Disc
 {
@@ -63,10 +55,12 @@ struct Disc
 /// on, points coincide in the plane; from some 50 on, folds are left.
 /// \param geometry its stars, which need their offsets, are consumed, except their normals
 /// \param boundary checked (see checkBoundary ())
+/// \param options  with as_published: nothing beyond TW 385
+/// \param finish   what else it does is chosen here
 /// \return with the problem of the boundary; UNREACHABLE if it is not connected with most points; that of the
 ///     solver; or NOT_A_DISC if too many edges are folded
 Disc
-makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary,
-          const DiscSettings& settings, const RunContext& run);
+makeDisc (const Points& points, LocalGeometry& geometry, Boundary boundary, const Options& options,
+          FinishSettings finish, const RunContext& run);
 
 } // namespace pcl::floater

@@ -4,7 +4,6 @@
 
 #include "core/order_statistics.h"
 #include "options/check_options.h"
-#include "points/invalid_points.h"
 #include "points/outliers.h"
 #include "report/findings.h"
 #include "report/report_cloud.h"

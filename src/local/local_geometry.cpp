@@ -72,11 +72,9 @@ rowsBeside (const Points& points, const LocalPlanes& planes)
 {
   if (!planes.tree || !planes.normals.empty ())
     return [&planes] (Index p) { return planes.neighbors.row (p); };
-  BesideSearch search{points.workingPositions (), planes};
-  return [&planes, search = std::move (search), row = std::vector<Index> ()] (Index p) mutable {
-    row.assign (planes.neighbors.row (p).begin (), planes.neighbors.row (p).end ());
-    search.extend (p, row);
-    return Row{row.data (), row.data () + row.size ()};
+  return [search = BesideSearch{points.workingPositions (), planes}] (Index p) mutable {
+    search.extend (p);
+    return Row{search.row.data (), search.row.data () + search.row.size ()};
   };
 }
 
@@ -87,21 +85,18 @@ fitLocalPlanes (const Points& points, LocalPlanes planes, const StarSettings& se
   const Positions& positions = points.workingPositions ();
   if (settings.reach_beyond) {
     const std::size_t n = positions.size ();
-    planes.beside.reach.resize (n);
+    planes.beside_reach.resize (n);
     RangeRows beside (n, n);
     parallelRanges (run, n, [&] (std::size_t first, std::size_t last) {
       BesideSearch search{positions, planes};
-      std::vector<Index> row;
       for (auto p = static_cast<Index> (first); p < last; ++p) {
-        const Row known = planes.neighbors.row (p);
-        row.assign (known.begin (), known.end ());
-        planes.beside.reach[p] = search.extend (p, row);
-        for (std::size_t i = known.size (); i < row.size (); ++i)
-          beside.add (first, p, row[i]);
+        planes.beside_reach[p] = search.extend (p);
+        for (std::size_t i = planes.neighbors.row (p).size (); i < search.row.size (); ++i)
+          beside.add (first, p, search.row[i]);
       }
     });
-    planes.beside.neighbors = beside.join ();
-    appendRows (planes.beside.neighbors, planes.neighbors);
+    planes.beside = beside.join ();
+    appendRows (planes.beside, planes.neighbors);
   }
   planes.normals.resize (positions.size ());
   parallelPoints (run, positions.size (), [&] (Index p) {
@@ -122,19 +117,17 @@ makeLocalGeometry (const Points& points, LocalPlanes planes, const StarSettings&
   LocalGeometry geometry;
   if (!points.projected.empty ())
     geometry.own_spacing = localSpacing (points.positions, planes.neighbors, run);
-  if (!begun)
-    begun = makeStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
-                       settings, run, settings.reach_beyond ? &planes : nullptr);
-  geometry.stars = settings.reach_beyond
-                       ? finishStars (positions, planes, std::move (*begun), settings, run)
-                       : std::move (*begun);
+  geometry.stars =
+      begun ? std::move (*begun)
+            : makeStars (positions, planes.neighbors, planes.normals, Rows::all (positions.size ()),
+                         settings, run, settings.reach_beyond ? &planes : nullptr);
+  if (settings.reach_beyond)
+    finishStars (positions, planes, settings, run, geometry.stars);
   geometry.neighbors = std::move (planes.neighbors);
   geometry.spacing = std::move (planes.spacing);
-  if (!settings.reach_beyond)
-    return geometry;
   appendRows (geometry.stars.far_neighbors, geometry.neighbors);
   geometry.stars.far_neighbors = {};
-  for (std::size_t p = 0; p < geometry.spacing.size (); ++p)
+  for (std::size_t p = 0; p < geometry.stars.reach.size (); ++p)
     geometry.spacing[p] =
         std::max (geometry.spacing[p], REACH_AS_SPACING * geometry.stars.reach[p]);
   return geometry;

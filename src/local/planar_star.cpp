@@ -89,8 +89,7 @@ sortByAngle (std::vector<PlanarNeighbor>& neighbors, std::vector<PlanarNeighbor>
 {
   for (PlanarNeighbor& neighbor : neighbors)
     neighbor.angle = pseudoAngle (neighbor.offset);
-  const bool are_few = !neighbors.empty () && neighbors.size () <= MOST_COUNTED;
-  if (!are_few || !sortByCounting (neighbors, unsorted))
+  if (neighbors.size () > MOST_COUNTED || !sortByCounting (neighbors, unsorted))
     std::sort (neighbors.begin (), neighbors.end (), [] (const auto& a, const auto& b) {
       return a.angle != b.angle ? a.angle < b.angle : a.point < b.point;
     });

@@ -101,13 +101,14 @@ liesBeside (const Line& line, const Vector3d& offset)
 }
 
 float
-BesideSearch::extend (Index p, std::vector<Index>& row)
+BesideSearch::extend (Index p)
 {
   constexpr double ROUNDED_UP = 1.0 + 1e-12, LEAST_COSINE = 1e-9;
   constexpr std::size_t FEWEST = 10;
   constexpr double CLOSELY = 0.1; // rows of a raster with rounded coordinates are rougher
   const Vector3d& here = positions[p];
   const Row around = planes.neighbors.row (p);
+  row.assign (around.begin (), around.end ());
   std::optional<Line> line = lineThrough (positions, p, around);
   // Or through the nearer half, if these lie on a line much more closely. Where the farther half has a
   // few points of one line beside, but none of the other, these neither surround the point nor fix its
@@ -181,29 +182,8 @@ appendRows (const CsrLists& added, CsrLists& lists)
   }
 }
 
-double
-reachOf (const std::vector<PlanarNeighbor>& star, bool open)
-{
-  double reach = 0.0;
-  const std::size_t count = star.size ();
-  const std::size_t sectors = open ? std::max<std::size_t> (1, count) - 1 : count;
-  for (const PlanarNeighbor& neighbor : star) {
-    const double length = neighbor.offset.norm ();
-    const Vector2d back = -neighbor.offset / length;
-    for (std::size_t i = 0; i < sectors && length > reach; ++i) {
-      const Vector2d& a = star[i].offset;
-      const Vector2d& b = star[i + 1 == count ? 0 : i + 1].offset;
-      if (cross (a, back) < 0.0 || cross (back, b) < 0.0 || cross (a, b) <= 0.0)
-        continue;
-      reach = std::max (reach, std::min (length, cross (a, b) / cross (back, b - a)));
-      break;
-    }
-  }
-  return reach;
-}
-
 bool
-StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
+StarReach::extend (Index p, const TangentFrame& frame, bool open,
                    std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star)
 {
   constexpr int ROUNDS = 8; // of one star, to limit the time
@@ -216,10 +196,12 @@ StarReach::extend (Index p, const TangentFrame& frame, Row row, std::size_t near
   constexpr SheetLimits CIRCLE_SHEET{0.25, 0.8};
   added.clear ();
   const Vector3d& here = positions[p];
-  const double farthest = farthestFrom (positions, p, planes.neighbors.first (p, nearest),
-                                        static_cast<double> (planes.spacing[p]));
+  const Row row = planes.neighbors.row (p);
+  const Row nearest = planes.neighbors.first (p, row.size () - planes.beside.row (p).size ());
+  const double farthest =
+      farthestFrom (positions, p, nearest, static_cast<double> (planes.spacing[p]));
   const double sqr_searched = // all points within are in the row
-      nearest == 0 ? 0.0 : (positions[row[nearest - 1]] - here).squaredNorm ();
+      nearest.size () == 0 ? 0.0 : (positions[nearest[nearest.size () - 1]] - here).squaredNorm ();
   const auto isNew = [&] (Index point, double sqr_distance, const SheetLimits& sheets) {
     // The row may contain neighbours beside a line, which are farther than the nearest.
     return sqr_distance >= sqr_searched &&

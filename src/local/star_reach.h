@@ -46,23 +46,17 @@ lineThrough (const Positions& positions, Index p, Row row, double least_aspect =
 bool
 liesBeside (const Line& line, const Vector3d& offset);
 
-/// Neighbours beside the points whose nearest neighbours are collinear, as in scan lines.
-struct BesideLines
-{
-  CsrLists neighbors;       ///< nearest on either side of the line; none for all other points
-  std::vector<float> reach; ///< for points on lines: the smaller distance to the nearest points on
-                            ///< opposite sides; 0 for all others
-};
-
 /// Input of the stars.
 struct LocalPlanes
 {
   CsrLists neighbors;         ///< nearest first, then the far neighbours beside lines
   std::vector<float> spacing; ///< of the working positions: see localSpacing
   Normals normals;            ///< of the tangent planes: unit length, of arbitrary sign
-  std::optional<KdTree> tree; ///< of the working positions, if stars reach beyond the
-                              ///< neighbours
-  BesideLines beside;         ///< neighbours beside lines, in the same case
+  std::optional<KdTree> tree; ///< of the working positions, if stars reach beyond the neighbours
+  /// Of points on lines, as in scan lines, then also: their nearest on either side of the line, and
+  /// the smaller distance to the nearest points on opposite sides; none, and 0, for all others.
+  CsrLists beside;
+  std::vector<float> beside_reach;
 };
 
 /// Finds the neighbours beside the line of a point, if it is on one, by two searches.
@@ -71,24 +65,15 @@ struct BesideSearch
   const Positions& positions;
   const LocalPlanes& planes;                          ///< with neighbours, spacing and tree
   std::array<std::vector<Neighbor>, 2> found_on = {}; ///< the sides of the last point on a line
+  std::vector<Index> row = {}; ///< neighbours of the last point, then those beside its line
 
-  /// \param row in: the neighbours of p; out: with those beside its line
-  /// \return see BesideLines::reach
-  float extend (Index p, std::vector<Index>& row);
+  /// \return see LocalPlanes::beside_reach
+  float extend (Index p);
 };
 
 /// Appends lists to others, row by row, in place. O(entries).
 void
 appendRows (const CsrLists& added, CsrLists& lists);
-
-/// Reach of a star in its plane to opposite sides: the maximum over its neighbours of the smaller
-/// of two lengths: to the neighbour, and from the centre backwards to the border of the star. It is
-/// the edge length on an even sampling, the line distance between scan lines, and the edge length
-/// on the side of the surface beside a hole. O(m^2) for m neighbours.
-/// \param open see PlanarStar::make
-/// \return 0 if the star has nothing opposite to any neighbour
-double
-reachOf (const std::vector<PlanarNeighbor>& star, bool open);
 
 /// Completes stars where the nearest neighbours are too few. A star of the nearest neighbours
 /// equals the star of all points (on the same sheet) if all of its circumcircles lie in the ball
@@ -103,12 +88,10 @@ struct StarReach
   std::vector<Neighbor> found = {};
 
   /// \param frame      of the plane of the star
-  /// \param row        neighbours of p
-  /// \param nearest    number of these, from the first on, that are the nearest of all points
   /// \param candidates those in the triangulation; far neighbours are appended
   /// \param star       in: of the candidates; out: with far neighbours
   /// \return whether the star is open
-  bool extend (Index p, const TangentFrame& frame, Row row, std::size_t nearest, bool open,
+  bool extend (Index p, const TangentFrame& frame, bool open,
                std::vector<PlanarNeighbor>& candidates, std::vector<PlanarNeighbor>& star);
 };
 

@@ -66,10 +66,10 @@ makeStars (const Positions& positions, const CsrLists& neighbors, const Normals&
 /// Second step of stars beyond the neighbours, for all of them: sets each reach to the maximum
 /// around, then removes far neighbours across a hole again: those too far for the reach of both
 /// ends.
-/// \param begun results of makeStars ()
-Stars
-finishStars (const Positions& positions, const LocalPlanes& planes, Stars begun,
-             const StarSettings& settings, const RunContext& run);
+/// \param[in,out] stars results of makeStars ()
+void
+finishStars (const Positions& positions, const LocalPlanes& planes, const StarSettings& settings,
+             const RunContext& run, Stars& stars);
 
 /// Whether test (q, r) is true for a triangle of the star of p with q and r, anti-clockwise. The first
 /// such triangle is the last one tested. O(neighbours in the star).

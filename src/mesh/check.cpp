@@ -211,9 +211,8 @@ checkMesh (const TriangleMesh& mesh, const Points& points, const std::vector<flo
   if (figures.longest.sqr_length > 0.0)
     check.longest_edge_at = {points.cloud_index[figures.longest.at.first],
                              points.cloud_index[figures.longest.at.second]};
-  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
-    if (mesh.triangle_of[p] == NONE)
-      found.unused.push_back (p);
+  found.unused = indicesWhere (mesh.triangle_of.size (),
+                               [&] (Index p) { return mesh.triangle_of[p] == NONE; });
   check.euler_characteristic = static_cast<std::int64_t> (points.size () - found.unused.size ()) -
                                static_cast<std::int64_t> (figures.edges) +
                                static_cast<std::int64_t> (mesh.triangles.size ());

@@ -152,11 +152,9 @@ private:
   // Places in the loop, ascending.
   std::vector<Index> besideSheet (const std::vector<Index>& loop, double within) const
   {
-    std::vector<Index> places;
-    for (Index i = 0; i < loop.size (); ++i)
-      if (is_disturbed_[loop[i]] != 0 || isBesideSheet (loop[i], within))
-        places.push_back (i);
-    return places;
+    return indicesWhere (loop.size (), [&] (Index i) {
+      return is_disturbed_[loop[i]] != 0 || isBesideSheet (loop[i], within);
+    });
   }
 
   // Stretches of a loop with more than SMALL_LOOP of these places, with gaps of no more than

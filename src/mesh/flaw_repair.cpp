@@ -80,11 +80,7 @@ private:
   // Triangles that cross others or are flawed, ascending.
   std::vector<Index> flawedTriangles () const
   {
-    std::vector<Index> triangles;
-    for (Index t = 0; t < is_flawed_.size (); ++t)
-      if (isFlawedOrCrossing (t))
-        triangles.push_back (t);
-    return triangles;
+    return indicesWhere (is_flawed_.size (), [this] (Index t) { return isFlawedOrCrossing (t); });
   }
 
   // Flips single edges as long as this helps.

@@ -58,10 +58,8 @@ coverPairs (std::size_t triangles, const std::vector<CrossingPair>& pairs)
       emit (pair.second, pair.first);
     }
   });
-  std::vector<Index> order;
-  for (Index t = 0; t < triangles; ++t)
-    if (partners.row (t).size () > 0)
-      order.push_back (t);
+  std::vector<Index> order =
+      indicesWhere (triangles, [&] (Index t) { return partners.row (t).size () > 0; });
   std::stable_sort (order.begin (), order.end (), [&partners] (Index t, Index u) {
     return partners.row (t).size () > partners.row (u).size ();
   });
@@ -149,9 +147,8 @@ trimMesh (TriangleMesh& mesh, const Points& points, const std::vector<float>& sp
     done.components = removeSmallComponents (
         mesh, static_cast<std::size_t> (options.minimum_component_size), run);
   done.triangles = triangles - mesh.triangles.size ();
-  for (Index p = 0; p < before.size (); ++p)
-    if (before[p] != NONE && mesh.triangle_of[p] == NONE)
-      done.points.push_back (p);
+  done.points = indicesWhere (
+      before.size (), [&] (Index p) { return before[p] != NONE && mesh.triangle_of[p] == NONE; });
   return done;
 }
 

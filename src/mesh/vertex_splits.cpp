@@ -229,10 +229,8 @@ std::size_t
 addMissingPoints (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
                   const RunContext& run)
 {
-  std::vector<Index> missing;
-  for (Index p = 0; p < mesh.triangle_of.size (); ++p)
-    if (mesh.triangle_of[p] == NONE)
-      missing.push_back (p);
+  std::vector<Index> missing = indicesWhere (mesh.triangle_of.size (),
+                                             [&] (Index p) { return mesh.triangle_of[p] == NONE; });
   const std::size_t all = missing.size ();
   VertexSplitter splitter (mesh, positions, NEAREST_SPLIT, false);
   ProgressLoop progress (run);

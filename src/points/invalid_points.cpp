@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "points/invalid_points.h"
-
 #include "core/order_statistics.h"
+#include "points/outliers.h"
 
 namespace pcl::floater {
 namespace {

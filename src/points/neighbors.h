@@ -49,8 +49,7 @@ constexpr std::size_t SPACING_NEIGHBORS = 6;
 double
 spacingOf (const Positions& positions, Index p, const Row& row);
 
-/// Local spacing: the mean distance of each point to its (up to) 6 nearest neighbours; on a regular
-/// triangulation that is the length of an edge. O(n).
+/// Local spacing: spacingOf each point; on a regular triangulation, the length of an edge. O(n).
 /// \param neighbors nearest first
 std::vector<float>
 localSpacing (const Positions& positions, const CsrLists& neighbors, const RunContext& run);

@@ -322,16 +322,6 @@ measureNoise (const Positions& positions, const CsrLists& neighbors, const RunCo
   return noise;
 }
 
-bool
-isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share)
-{
-  double disturbed = 0.0;
-  for (std::size_t p = 0; p < agreement.size (); ++p)
-    if (noise.at_point[p] > 0.0F)
-      disturbed += 1.0 - static_cast<double> (agreement[p]);
-  return disturbed >= disturbed_share * static_cast<double> (agreement.size ());
-}
-
 void
 keepExplained (const CsrLists& neighbors, const std::vector<float>& before,
                const std::vector<float>& after, Noise& noise)

@@ -31,7 +31,6 @@ struct Noise
   /// The same at a smaller scale, from 10 to 40 and from 20 to 80 points.
   std::vector<float> smaller_dimension;
   double median = 0.0, quantile_90 = 0.0, largest = 0.0; ///< over all points, in local spacings
-  bool is_strong = false;                                ///< see isStrong; set by the caller
 };
 
 /// Measures noise. A neighbourhood has a residual: the root mean square distance of its points to their
@@ -49,15 +48,6 @@ struct Noise
 /// \param neighbors of each point, nearest first
 Noise
 measureNoise (const Positions& positions, const CsrLists& neighbors, const RunContext& run);
-
-/// Whether points have to be projected before they are connected: enough are noisy, and their stars
-/// disagree. At creases and thin sheets of clean clouds points look noisy, but their stars agree.
-/// O(n).
-/// \param agreement of the star of each point, see starAgreement
-/// \param disturbed_share mean, over all points, of the share of a noisy point's star neighbours
-///     that do not have it in their stars
-bool
-isStrong (const Noise& noise, const std::vector<float>& agreement, double disturbed_share);
 
 /// Keeps noise only in regions of noisy points where it explains the disagreement of the stars, and
 /// counts the noisy points again. O(n).

@@ -190,10 +190,8 @@ arcsToApart (const CsrLists& neighbors, const Flags& apart)
 void
 keepReached (const CsrLists& arcs, Flags& apart)
 {
-  std::vector<Index> reached;
-  for (Index q = 0; q < apart.size (); ++q)
-    if (apart[q] == 0 && arcs.row (q).size () > 0)
-      reached.push_back (q);
+  std::vector<Index> reached = indicesWhere (
+      apart.size (), [&] (Index q) { return apart[q] == 0 && arcs.row (q).size () > 0; });
   while (!reached.empty ()) {
     const Index q = reached.back ();
     reached.pop_back ();
@@ -212,13 +210,12 @@ smallClusters (const CsrLists& arcs, const Flags& apart)
     for (const Index p : arcs.row (q))
       if (apart[q] != 0 && apart[p] != 0)
         clusters.join (q, p);
-  std::vector<Index> size (apart.size (), 0), points;
+  std::vector<Index> size (apart.size (), 0);
   for (Index p = 0; p < apart.size (); ++p)
     ++size[clusters.find (p)];
-  for (Index p = 0; p < apart.size (); ++p)
-    if (apart[p] != 0 && size[clusters.find (p)] <= LARGEST_CLUSTER)
-      points.push_back (p);
-  return points;
+  return indicesWhere (apart.size (), [&] (Index p) {
+    return apart[p] != 0 && size[clusters.find (p)] <= LARGEST_CLUSTER;
+  });
 }
 
 } // namespace

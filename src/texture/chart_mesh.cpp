@@ -151,11 +151,10 @@ stretchOf (const std::vector<Triangle>& triangles, const Positions& positions,
 std::vector<Index>
 flippedTriangles (const std::vector<Triangle>& triangles, const std::vector<Vector2d>& uv)
 {
-  std::vector<Index> flipped;
-  for (Index t = 0; t < triangles.size (); ++t)
-    if (const auto& [a, b, c] = triangles[t]; !isAntiClockwise (uv[a], uv[b], uv[c]))
-      flipped.push_back (t);
-  return flipped;
+  return indicesWhere (triangles.size (), [&] (Index t) {
+    const auto& [a, b, c] = triangles[t];
+    return !isAntiClockwise (uv[a], uv[b], uv[c]);
+  });
 }
 
 } // namespace pcl::floater

@@ -130,11 +130,11 @@ planesStep (const StepContext& context, std::size_t block)
                           settings, context.run);
     planes = fitLocalPlanes (around, std::move (planes), settings, context.run);
   } while (search.widen ());
-  const CsrLists beside = ofOwn (search, planes.beside.neighbors);
+  const CsrLists beside = ofOwn (search, planes.beside);
   put (context, "planes", block,
        {{"beside", beside.ids},
         {"beside.offsets", beside.offsets},
-        {"beside_reach", ofOwn (search, planes.beside.reach)},
+        {"beside_reach", ofOwn (search, planes.beside_reach)},
         {"spacing", ofOwn (search, planes.spacing)},
         {"normals", ofOwn (search, planes.normals)},
         {"ids", left_out.isNothing () ? std::vector<Index> () : nearest.ids}});
@@ -160,7 +160,8 @@ starsStep (const StepContext& context, std::size_t block)
     planes.neighbors = toPlaces (search, all_lists);
     planes.normals = cloud.gather<Eigen::Vector3f> ("planes", "normals", search.points ());
     planes.spacing = toPlaces (search, own_spacing);
-    planes.beside = {toPlaces (search, beside_lists), toPlaces (search, own_reach)};
+    planes.beside = toPlaces (search, beside_lists);
+    planes.beside_reach = toPlaces (search, own_reach);
     planes.tree = search.makeTree (context.run);
     made = makeStars (search.positions (), planes.neighbors, planes.normals,
                       Rows::range (search.ownFirst (), search.ownLast ()), settings, context.run,

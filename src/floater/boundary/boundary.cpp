@@ -354,10 +354,8 @@ publishedLoop (const Points& points, const LocalGeometry& geometry, const Bounda
         star.make (planar);
         is_candidate[p] = star.openingAngle () > options.opening_angle * DEGREE ? 1 : 0;
       });
-  std::vector<Index> candidates;
-  for (Index p = 0; p < positions.size (); ++p)
-    if (is_candidate[p] != 0)
-      candidates.push_back (p);
+  const std::vector<Index> candidates =
+      indicesWhere (positions.size (), [&] (Index p) { return is_candidate[p] != 0; });
   Boundary boundary;
   boundary.candidates = candidates.size ();
   const std::vector<std::vector<Index>> clusters = clusterBoundaryPoints (

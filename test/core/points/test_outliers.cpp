@@ -3,7 +3,6 @@
 // Points far away, alone, and those that are no measurements.
 #include "points/outliers.h"
 
-#include "points/invalid_points.h"
 #include "points/neighbors.h"
 #include "samples.h"
 
