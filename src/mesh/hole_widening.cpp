@@ -61,7 +61,7 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
   constexpr double EVENNESS = 0.4, SPREAD = 4.0;
   BoundaryPeel peel (mesh);
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
-  for (const MeshEdge e : peel.edges ())
+  for (const MeshEdge e : boundaryEdges (mesh))
     if (const Index loop = loop_of[mesh.from (e)];
         loop != NONE && !loops[loop].judgement.staysOpen ())
       edges.emplace_back (e, loop);

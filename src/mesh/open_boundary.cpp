@@ -56,14 +56,13 @@ cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
 
 } // namespace
 
-std::size_t
+void
 openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
   const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
   if (folds.empty ())
-    return 0;
+    return;
   BoundaryPeel peel (mesh);
-  std::size_t count = 0;
   for (const MeshEdge fold : folds) {
     const MeshEdge other = mesh.mate (fold);
     if (peel.isBoundary (fold) || peel.isBoundary (other))
@@ -83,10 +82,8 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
     offerAround (other, mesh, peel, offer);
     for (const MeshEdge e : best)
       peel.take (e);
-    count += best.size ();
   }
   removeTriangles (mesh, std::move (peel).takenTriangles (), run);
-  return count;
 }
 
 Flags
@@ -110,7 +107,7 @@ chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPa
   return has_any ? std::move (peel).takenTriangles () : Flags ();
 }
 
-std::size_t
+void
 openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
   // Share of the corners of all triangles. An angle that at least this share reaches may belong to the
@@ -121,9 +118,9 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
   constexpr double LARGEST_COSINE = -0.02; // 91 degrees: rounding does not decide in a grid
   constexpr std::size_t SAMPLE = 20'000;   // triangles whose corners are asked
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
-  BoundaryPeel peel (mesh);
-  if (peel.edges ().empty ())
-    return 0;
+  const std::vector<MeshEdge> edges = boundaryEdges (mesh);
+  if (edges.empty ())
+    return;
   std::vector<double> corners; // cosines, of triangles that are spread evenly over the mesh
   const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
   ProgressLoop progress (run); // each triangle may load memory pages
@@ -139,9 +136,8 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
     if (cosine < limit)
       notches.emplace (cosine, e.triangle, e.side);
   };
-  for (const MeshEdge e : peel.edges ())
-    offer (e);
-  std::size_t count = 0;
+  std::for_each (edges.begin (), edges.end (), offer);
+  BoundaryPeel peel (mesh);
   while (!notches.empty ()) {
     const auto [cosine, triangle, side] = notches.top ();
     notches.pop ();
@@ -149,12 +145,10 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
     if (!peel.mayTake (e))
       continue;
     peel.take (e);
-    ++count;
     for (const std::uint8_t beside : otherSides (e))
       offer (mesh.mate ({triangle, beside}));
   }
   removeTriangles (mesh, std::move (peel).takenTriangles (), run);
-  return count;
 }
 
 } // namespace pcl::floater
