@@ -21,13 +21,13 @@ widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loop
 {
   std::vector<BoundaryLoop> found (loops.size ());
   for (std::vector<Index>& points : boundaryLoops (widened, run)) {
-    const auto own = std::find_if (points.begin (), points.end (),
-                                   [&loop_of] (Index p) { return loop_of[p] != NONE; });
-    if (own == points.end () || points == loops[loop_of[*own]].points)
+    const auto at = std::find_if (points.begin (), points.end (),
+                                  [&loop_of] (Index p) { return loop_of[p] != NONE; });
+    if (at == points.end () || points == loops[loop_of[*at]].points)
       continue;
-    BoundaryLoop& loop = found[loop_of[*own]] = loops[loop_of[*own]];
-    loop.points = std::move (points);
-    measureLoop (loop, positions, spacing);
+    const Index own = loop_of[*at];
+    found[own] = measureLoop (std::move (points), positions, spacing);
+    found[own].component = loops[own].component;
   }
   return found;
 }

@@ -214,13 +214,13 @@ fromLargest (std::vector<BoundaryLoop>& loops, Value&& value)
 
 } // namespace
 
-void
-measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing)
+BoundaryLoop
+measureLoop (std::vector<Index> points, const Positions& positions,
+             const std::vector<float>& spacing)
 {
   constexpr std::size_t WIDTH_POINTS = 256; // maximum for the width: its time is quadratic
-  const std::vector<Index>& points = loop.points;
+  BoundaryLoop loop;
   loop.length = perimeter (positions, points);
-  loop.spacing = 0.0;
   for (const Index p : points)
     loop.spacing += spacing[p];
   loop.spacing /= static_cast<double> (std::max<std::size_t> (1, points.size ()));
@@ -231,6 +231,8 @@ measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<f
       sqr_width =
           std::max (sqr_width, (positions[points[i]] - positions[points[j]]).squaredNorm ());
   loop.width = std::sqrt (sqr_width);
+  loop.points = std::move (points);
+  return loop;
 }
 
 std::vector<BoundaryLoop>
@@ -242,11 +244,9 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
   ProgressLoop progress (run);
   for (std::vector<Index>& points : boundaryLoops (mesh, run)) {
     progress.next ();
-    BoundaryLoop loop;
-    loop.component = components.of_triangle[mesh.triangle_of[points.front ()]];
-    loop.points = std::move (points);
-    measureLoop (loop, positions, spacing);
-    loops.push_back (std::move (loop));
+    const Index component = components.of_triangle[mesh.triangle_of[points.front ()]];
+    loops.push_back (measureLoop (std::move (points), positions, spacing));
+    loops.back ().component = component;
   }
   return loops;
 }

@@ -33,11 +33,12 @@ struct BoundaryLoop
   bool keep_open = false;    ///< it is a boundary of the surface
 };
 
-/// Sets length, width and spacing from the points. For the width of a loop of more than 256 points, at
+/// A loop of these points, with its length, width and spacing. For the width of a loop of more than 256 points, at
 /// most 256 at equal steps along it are used: it is too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
-void
-measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing);
+BoundaryLoop
+measureLoop (std::vector<Index> points, const Positions& positions,
+             const std::vector<float>& spacing);
 
 /// All boundary loops of a mesh, measured, in the order of boundaryLoops (). O(n).
 std::vector<BoundaryLoop>
