@@ -252,15 +252,12 @@ private:
         const Index other = all_.neighbors[t][k];
         if (all_.corners[t][k] == NONE || other < t)
           continue;
-        bool is_inside = false, is_boundary = true;
-        for (unsigned l = 0; l < 4; ++l) {
-          const Index p = all_.corners[t][l];
-          if (l == k || p == NONE)
-            continue;
-          is_inside = is_inside || place_.is_free[p] != 0 || place_.is_rim[p] != 0;
-          is_boundary = is_boundary && place_.is_boundary[p] != 0;
-        }
-        if (is_inside && !is_boundary)
+        const auto isInside = [this] (Index p) {
+          return p != NONE && (place_.is_free[p] != 0 || place_.is_rim[p] != 0);
+        };
+        const auto isOff = [this] (Index p) { return p != NONE && place_.is_boundary[p] == 0; };
+        const Triangle facet = all_.facet (t, k);
+        if (anyCorner (facet, isInside) && anyCorner (facet, isOff))
           sides_.put (t, other, false);
       }
     }
