@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/two_sides.h"
 
+#include "core/disjoint_sets.h"
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"
 
@@ -15,13 +16,7 @@ namespace {
 class SidesOfSpace
 {
 public:
-  struct Side
-  {
-    Index root;
-    bool is_other; // opposite to the root
-
-    bool operator== (const Side& s) const { return root == s.root && is_other == s.is_other; }
-  };
+  using Side = SignedSets::Place; // flipped: opposite to the root
 
   SidesOfSpace (const Tetrahedra& tetrahedra, const Flags& is_free)
       : tetrahedra_ (tetrahedra), parent_ (tetrahedra.size ()), is_other_ (tetrahedra.size (), 0),
@@ -36,10 +31,10 @@ public:
 
   Side of (Index t) const
   {
-    bool is_other = false;
+    bool flipped = false;
     for (; parent_[t] != t; t = parent_[t])
-      is_other = is_other != (is_other_[t] != 0);
-    return {t, is_other};
+      flipped = flipped != (is_other_[t] != 0);
+    return {t, flipped};
   }
 
   // Puts two tetrahedra on the same side or on opposite ones.
@@ -71,7 +66,7 @@ private:
   bool link (Index a, Index b, bool opposite)
   {
     const Side of_a = of (a), of_b = of (b);
-    const bool flips = (of_a.is_other != of_b.is_other) != opposite;
+    const bool flips = (of_a.flipped != of_b.flipped) != opposite;
     if (of_a.root == of_b.root)
       return !flips;
     Index small = of_a.root, large = of_b.root;
@@ -104,7 +99,7 @@ private:
     if (second == first)
       return false;
     return first.root == second.root ||
-           link (first.root, second.root, first.is_other == second.is_other);
+           link (first.root, second.root, first.flipped == second.flipped);
   }
 
   const Tetrahedra& tetrahedra_;
@@ -271,18 +266,18 @@ private:
     for (std::size_t i = 0; i < place_.frame.size (); ++i)
       if (const Index front = front_of_patch_[place_.patch_of[i]]; front != NONE) {
         const Side side = sides_.of (front);
-        ++votes[side.root][side.is_other ? 1 : 0];
+        ++votes[side.root][side.flipped ? 1 : 0];
       }
     for (Index t = 0; t < all_.size (); ++t)
       if (all_.isInfinite (t)) {
         const Side side = sides_.of (t);
         const auto [at, is_new] = votes.try_emplace (side.root);
         if (is_new)
-          ++at->second[side.is_other ? 1 : 0];
+          ++at->second[side.flipped ? 1 : 0];
       }
     const auto isFront = [&votes] (const Side& side) {
       const auto at = votes.find (side.root);
-      return at != votes.end () && (at->second[1] > at->second[0]) == side.is_other;
+      return at != votes.end () && (at->second[1] > at->second[0]) == side.flipped;
     };
     is_behind_.resize (all_.size ());
     for (Index t = 0; t < all_.size (); ++t)
