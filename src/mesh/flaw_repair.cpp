@@ -339,7 +339,7 @@ private:
         }
         const Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
         sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
-        sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
+        sum.cost += TriangleCost::ofEdge (own.unit_normal, normal);
       }
     }
     return sum;

@@ -79,9 +79,7 @@ EdgeFlipper::improves (MeshEdge e) const
   const Vector3d at_ca = across (e.triangle, TriangleMesh::previous (e.side));
   const Vector3d at_ad = across (m.triangle, TriangleMesh::next (m.side));
   const Vector3d at_db = across (m.triangle, TriangleMesh::previous (m.side));
-  const auto at_edge = [&plain = cost_.plain ()] (const Vector3d& p, const Vector3d& q) {
-    return plain.ofEdge (p, q);
-  };
+  constexpr auto at_edge = TriangleCost::ofEdge;
   const double total = now + at_edge (now_cab.unit_normal, now_dba.unit_normal) +
                        at_edge (at_bc, now_cab.unit_normal) + at_edge (at_ca, now_cab.unit_normal) +
                        at_edge (at_ad, now_dba.unit_normal) + at_edge (at_db, now_dba.unit_normal);

@@ -55,7 +55,7 @@ public:
 
   /// Cost of an edge between two triangles: 0 up to an angle of 90 degrees between their normals,
   /// growing beyond; 0 if one of the normals is zero.
-  double ofEdge (const Vector3d& unit_normal, const Vector3d& other_unit_normal) const
+  static double ofEdge (const Vector3d& unit_normal, const Vector3d& other_unit_normal)
   {
     return FOLD_COST * std::max (0.0, -unit_normal.dot (other_unit_normal));
   }
