@@ -151,7 +151,7 @@ struct PlaceInSpace
         sides.put (f.one, f.other, true);
     }
     decide (made.is_turned);
-    SideMending mending (all, place.is_free, overlaps, is_behind);
+    SideMending mending{all, place.is_free, overlaps, is_behind};
     made.flawed = mending.flawed ();
     const auto free = std::count (place.is_free.begin (), place.is_free.end (), 1);
     if (only_counts || isNoise (made.flawed, static_cast<std::size_t> (free)))
