@@ -59,7 +59,7 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
   // A circumradius may reach the mean edge two rings into the surface; or, where the sampling is
   // uneven, EVENNESS times that edge, plus SPREAD times LoopEvidence::irregularity times it.
   constexpr double EVENNESS = 0.4, SPREAD = 4.0;
-  BoundaryPeel peel (mesh);
+  BoundaryPeel peel{mesh};
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
   for (const MeshEdge e : boundaryEdges (mesh))
     if (const Index loop = loop_of[mesh.from (e)];

@@ -62,7 +62,7 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
   const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
   if (folds.empty ())
     return;
-  BoundaryPeel peel (mesh);
+  BoundaryPeel peel{mesh};
   for (const MeshEdge fold : folds) {
     const MeshEdge other = mesh.mate (fold);
     if (peel.isBoundary (fold) || peel.isBoundary (other))
@@ -83,13 +83,13 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
     for (const MeshEdge e : best)
       peel.take (e);
   }
-  removeTriangles (mesh, std::move (peel).takenTriangles (), run);
+  removeTriangles (mesh, std::move (peel.is_taken), run);
 }
 
 Flags
 chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPair>& pairs)
 {
-  BoundaryPeel peel (mesh);
+  BoundaryPeel peel{mesh};
   bool has_any = false;
   for (const CrossingPair& pair : pairs)
     for (const Index t : {pair.first, pair.second}) {
@@ -104,7 +104,7 @@ chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPa
         has_any = true;
       }
     }
-  return has_any ? std::move (peel).takenTriangles () : Flags ();
+  return has_any ? std::move (peel.is_taken) : Flags ();
 }
 
 void
@@ -137,7 +137,7 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
       notches.emplace (cosine, e.triangle, e.side);
   };
   std::for_each (edges.begin (), edges.end (), offer);
-  BoundaryPeel peel (mesh);
+  BoundaryPeel peel{mesh};
   while (!notches.empty ()) {
     const auto [cosine, triangle, side] = notches.top ();
     notches.pop ();
@@ -148,7 +148,7 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
     for (const std::uint8_t beside : otherSides (e))
       offer (mesh.mate ({triangle, beside}));
   }
-  removeTriangles (mesh, std::move (peel).takenTriangles (), run);
+  removeTriangles (mesh, std::move (peel.is_taken), run);
 }
 
 } // namespace pcl::floater

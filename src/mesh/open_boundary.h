@@ -10,44 +10,33 @@ namespace pcl::floater {
 /// Marks triangles to be removed from the boundary; the mesh itself stays unchanged. A triangle may
 /// be removed if it has one boundary edge, and its other corner is inside. So every point keeps a
 /// triangle, the mesh stays a manifold, and the numbers of components and boundary loops and the
-/// genus stay.
-class BoundaryPeel
+/// genus stay. O(n) to begin with.
+struct BoundaryPeel
 {
-public:
-  /// O(n).
-  explicit BoundaryPeel (const TriangleMesh& mesh)
-      : mesh_ (mesh), is_taken_ (mesh.triangles.size (), 0), is_at_boundary_ (boundaryPoints (mesh))
-  {
-  }
+  const TriangleMesh& mesh;
+  Flags is_taken = Flags (mesh.triangles.size (), 0); ///< per triangle; for removeTriangles ()
+  Flags is_at_boundary = boundaryPoints (mesh);       ///< per point
 
-  bool isTaken (Index triangle) const { return is_taken_[triangle] != 0; }
+  bool isTaken (Index triangle) const { return is_taken[triangle] != 0; }
 
   /// Whether no triangle is left across an edge.
   bool isBoundary (MeshEdge e) const
   {
-    const Index other = mesh_.neighbors[e.triangle][e.side];
+    const Index other = mesh.neighbors[e.triangle][e.side];
     return other == NONE || isTaken (other);
   }
 
   /// \param e a boundary edge of the remaining mesh
   bool mayTake (MeshEdge e) const
   {
-    return !isTaken (e.triangle) && is_at_boundary_[mesh_.corner (e)] == 0;
+    return !isTaken (e.triangle) && is_at_boundary[mesh.corner (e)] == 0;
   }
 
   /// Removes the triangle of an edge for which mayTake () holds.
-  void take (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 1; }
+  void take (MeshEdge e) { is_taken[e.triangle] = is_at_boundary[mesh.corner (e)] = 1; }
 
   /// Restores the triangle that was removed last.
-  void putBack (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 0; }
-
-  /// Of each triangle: 1 if it is removed. For removeTriangles.
-  Flags takenTriangles () && { return std::move (is_taken_); }
-
-private:
-  const TriangleMesh& mesh_;
-  Flags is_taken_;       // per triangle
-  Flags is_at_boundary_; // per point
+  void putBack (MeshEdge e) { is_taken[e.triangle] = is_at_boundary[mesh.corner (e)] = 0; }
 };
 
 /// Removes triangles at a folded edge (isFold) near the boundary: one or two, if the fold then
