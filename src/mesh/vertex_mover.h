@@ -22,7 +22,7 @@ public:
   VertexMover (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
                const TriangleCost& cost, const RunContext& run)
       : mesh_ (mesh), neighbors_ (neighbors), cost_ (cost),
-        splitter_ (mesh, positions, PLACES, true), flipper_ (mesh, cost_, run), filling_ (run)
+        splitter_ (mesh, positions, PLACES, true), flipper_{mesh, cost_, run}, filling_ (run)
   {
     mesh_.recordChanges ();
   }
@@ -121,9 +121,9 @@ private:
         const Index other = mesh_.neighbors[u][side];
         if (other != NONE &&
             (u < other || std::find (fan_.begin (), fan_.end (), other) == fan_.end ()))
-          flipper_.push ({u, side});
+          flipper_.stack.push_back ({u, side});
       }
-    flipper_.run ();
+    flipper_.flipAll ();
   }
 
   TriangleMesh& mesh_;
