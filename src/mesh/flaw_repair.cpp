@@ -307,7 +307,7 @@ struct FlawRepair
       return mover.cost () (mesh.triangles[t]).unit_normal;
     };
     const auto look = [&] (Index t) {
-      is_flawed[t] = isFlawed (mesh, mover.cost ().plain (), t, repair, ridges, normal) ? 1 : 0;
+      is_flawed[t] = isFlawed (mesh, mover.cost ().plain, t, repair, ridges, normal) ? 1 : 0;
     };
     for (const Index t : changed) {
       changed_in[t] = step;
@@ -332,7 +332,7 @@ struct FlawRepair
     for (const Index t : changed) {
       const TriangleCost::Value own = cost (mesh.triangles[t]);
       sum.cost += own.cost;
-      sum.long_triangles += cost.plain ().isLong (mesh.triangles[t]) ? 1 : 0;
+      sum.long_triangles += cost.plain.isLong (mesh.triangles[t]) ? 1 : 0;
       for (std::uint8_t side = 0; side < 3; ++side) {
         const Index u = mesh.neighbors[t][side];
         if (u == NONE || (t > u && std::binary_search (changed.begin (), changed.end (), u)))

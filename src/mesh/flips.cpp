@@ -97,7 +97,7 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
   const std::size_t count = mesh.triangles.size ();
   std::vector<std::vector<MeshEdge>> found ((count + TRIANGLES_PER_TASK - 1) / TRIANGLES_PER_TASK);
   parallelTasks (run, found.size (), [&] (std::size_t task) {
-    CachedCost cached (cost);
+    CachedCost cached{cost};
     const EdgeFlipper flipper{mesh, cached, run};
     const auto last = static_cast<Index> (std::min (count, (task + 1) * TRIANGLES_PER_TASK));
     for (auto t = static_cast<Index> (task * TRIANGLES_PER_TASK); t < last; ++t)
@@ -107,7 +107,7 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
           found[task].push_back ({t, side});
       }
   });
-  CachedCost cached (cost);
+  CachedCost cached{cost};
   EdgeFlipper flipper{mesh, cached, run};
   for (auto task = found.rbegin (); task != found.rend (); ++task)
     flipper.stack.insert (flipper.stack.end (), task->rbegin (), task->rend ());

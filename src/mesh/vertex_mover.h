@@ -21,7 +21,7 @@ public:
   /// \param neighbors nearest neighbours of each point
   VertexMover (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
                const TriangleCost& cost, const RunContext& run)
-      : mesh_ (mesh), neighbors_ (neighbors), cost_ (cost),
+      : mesh_ (mesh), neighbors_ (neighbors), cost_{cost},
         splitter_ (mesh, positions, PLACES, true), flipper_{mesh, cost_, run}, filling_ (run)
   {
     mesh_.recordChanges ();
