@@ -73,14 +73,6 @@ struct NeckFinder
     return {};
   }
 
-  // The points that the last search has reached within some edges of its start.
-  template <typename Visit>
-  void forEachWithin (std::size_t edges, Visit&& visit) const
-  {
-    for (std::size_t i = 0; i < visits.size () && visits[i].edges <= edges; ++i)
-      visit (visits[i].point);
-  }
-
   // \return false at the boundary
   bool visit (Index p, Index before, std::size_t edges)
   {
@@ -263,7 +255,8 @@ findNeckLoops (const TriangleMesh& mesh, const Positions& positions, const Flags
     if (is_searched[p] != 0)
       continue;
     std::vector<Index> loop = finder.loopNear (p);
-    finder.forEachWithin (1, [&] (Index q) { is_searched[q] = 1; });
+    for (std::size_t i = 0; i < finder.visits.size () && finder.visits[i].edges <= 1; ++i)
+      is_searched[finder.visits[i].point] = 1;
     if (!loop.empty ()) {
       // From the smallest point, towards the smaller one beside it.
       std::rotate (loop.begin (), std::min_element (loop.begin (), loop.end ()), loop.end ());
