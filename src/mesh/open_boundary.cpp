@@ -59,11 +59,8 @@ cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
 void
 openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
-  const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
-  if (folds.empty ())
-    return;
   BoundaryPeel peel{mesh};
-  for (const MeshEdge fold : folds) {
+  for (const MeshEdge fold : findFolds (mesh, positions, run)) {
     const MeshEdge other = mesh.mate (fold);
     if (peel.isBoundary (fold) || peel.isBoundary (other))
       continue;
