@@ -98,12 +98,10 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Po
 void
 judgeTogether (const std::vector<BoundaryLoop*>& loops);
 
-/// Decides by the judgements which loops are kept open: sets BoundaryLoop::keep_open.
-///
-/// The automatic policy keeps likely boundaries, and loops that are too deep to be filled. A
-/// requested number of loops is taken from the most likely boundaries on; the largest loop of each
-/// component is the longest of its likely boundaries. If likely boundaries run out, both use the
-/// length of the loop with no point beyond. O(m log m) for m loops.
+/// Decides by the judgements which loops are kept open (see HolePolicy): sets BoundaryLoop::keep_open.
+/// Automatically, loops that are too deep to be filled are as well. The largest loop of each component
+/// is the longest of its likely boundaries; if these run out, the length of the loop with no point
+/// beyond counts, as for a requested number of loops. O(m log m) for m loops.
 /// \param unit length of one unit of the cloud in the unit of the positions
 void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, const HoleOptions& holes, double unit);
