@@ -33,8 +33,8 @@ struct BoundaryLoop
   bool keep_open = false;    ///< it is a boundary of the surface
 };
 
-/// A loop of these points, with its length, width and spacing. For the width of a loop of more than 256 points, at
-/// most 256 at equal steps along it are used: it is too small by at most two of these steps. O(points).
+/// The measured loop of these points. For the width of a loop of more than 256 points, at most 256 at
+/// equal steps along it are used: it is too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
 BoundaryLoop
 measureLoop (std::vector<Index> points, const Positions& positions,
