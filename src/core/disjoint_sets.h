@@ -69,6 +69,8 @@ public:
   {
     Index root;
     bool flipped; ///< the sign differs from that of the representative
+
+    bool operator== (const Place& p) const { return root == p.root && flipped == p.flipped; }
   };
 
   Place find (Index element)

@@ -128,7 +128,7 @@ findSeveralFans (const TriangleMesh& mesh, const RunContext& run)
       ++corners[p];
   return sumOver<FlawCount> (corners.size (), run, [&] (Index p, FlawCount& found) {
     Index in_fan = 0;
-    for (FanWalk walk (mesh, p); walk.triangle () != NONE && in_fan <= corners[p]; walk.advance ())
+    for (FanWalk walk{mesh, p}; walk.triangle != NONE && in_fan <= corners[p]; walk.advance ())
       ++in_fan;
     if (in_fan != corners[p])
       found.add ({1, p});

@@ -8,47 +8,39 @@
 namespace pcl::floater {
 namespace {
 // Which triangles cross those of a mesh that are in a tree. Each loop has a copy of its own.
-class Obstacles
+struct Obstacles
 {
-public:
-  Obstacles (const std::vector<Triangle>& triangles, const Positions& positions,
-             const BoxTree& tree)
-      : triangles_ (triangles), positions_ (positions), tree_ (tree)
-  {
-  }
+  const std::vector<Triangle>& triangles;
+  const Positions& positions;
+  const BoxTree& tree;
+  std::vector<std::size_t> found = {}; // the latest first
 
   // \param counts (t): whether a triangle in the way counts
   template <typename Counts>
   bool cross (const Triangle& triangle, Counts&& counts)
   {
     const auto isInTheWay = [&] (std::size_t t) {
-      return counts (triangles_[t]) && doCross (triangle, triangles_[t], positions_);
+      return counts (triangles[t]) && doCross (triangle, triangles[t], positions);
     };
-    const Eigen::AlignedBox3d box = boxOf (triangle, positions_);
-    const auto again = std::find_if (found_.begin (), found_.end (), [&] (std::size_t t) {
-      return box.intersects (boxOf (triangles_[t], positions_)) && isInTheWay (t);
+    const Eigen::AlignedBox3d box = boxOf (triangle, positions);
+    const auto again = std::find_if (found.begin (), found.end (), [&] (std::size_t t) {
+      return box.intersects (boxOf (triangles[t], positions)) && isInTheWay (t);
     });
-    if (again != found_.end ()) {
-      std::rotate (found_.begin (), again, again + 1);
+    if (again != found.end ()) {
+      std::rotate (found.begin (), again, again + 1);
       return true;
     }
-    return tree_.forOverlaps (box, [&] (std::size_t t) {
+    return tree.forOverlaps (box, [&] (std::size_t t) {
       if (!isInTheWay (t))
         return false;
-      found_.resize (std::min (found_.size (), KEPT - 1));
-      found_.insert (found_.begin (), t);
+      found.resize (std::min (found.size (), KEPT - 1));
+      found.insert (found.begin (), t);
       return true;
     });
   }
 
-private:
   // The triangles of a loop have mostly the same ones in their way.
   static constexpr std::size_t KEPT = 16;
-
-  const std::vector<Triangle>& triangles_;
-  const Positions& positions_;
-  const BoxTree& tree_;
-  std::vector<std::size_t> found_; // the latest first
 };
 
 constexpr auto isAny = [] (const Triangle&) { return true; };
@@ -64,7 +56,7 @@ CrossedFillings::CrossedFillings (const TriangleMesh& mesh, std::size_t before,
     return;
   const BoxTree tree (
       before, [&] (std::size_t t) { return boxOf (mesh.triangles[t], positions); }, run);
-  Obstacles obstacles (mesh.triangles, positions, tree);
+  Obstacles obstacles{mesh.triangles, positions, tree};
   loop_of_.assign (positions.size (), NONE);
   for (Index i = 0; i < loops.size (); ++i)
     for (const Index p : loops[i].points)

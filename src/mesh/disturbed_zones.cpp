@@ -29,46 +29,8 @@ constexpr double GAP_SHARE = 1.0 / 3.0;
 // it, times their distance.
 constexpr std::size_t LONG_RUN = 32;
 
-class ZoneFinder
+struct ZoneFinder
 {
-public:
-  ZoneFinder (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
-              bool whole_loops, bool closes_gaps, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), geometry_ (geometry), whole_loops_ (whole_loops),
-        closes_gaps_ (closes_gaps), run_ (run)
-  {
-  }
-
-  DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
-  {
-    for (const Index t : mesh_.triangle_of)
-      is_wrong_.push_back (t == NONE ? 1 : 0);
-    for (const CrossingPair& pair : crossing)
-      for (const Index t : {pair.first, pair.second})
-        for (const Index p : mesh_.triangles[t])
-          is_wrong_[p] = 1;
-    readLoops ();
-    is_disturbed_ = is_wrong_;
-    markGaps ();
-    if (std::find (is_wrong_.begin (), is_wrong_.end (), 1) == is_wrong_.end ())
-      return {};
-    markDisturbed ();
-    markGaps ();
-    for (const std::vector<Index>& loop : loops_)
-      for (const Index p : loop)
-        zones_.is_boundary[p] = is_disturbed_[p] == 0 ? 1 : 0;
-    for (Index p = 0; p < positions_.size (); ++p)
-      if (is_disturbed_[p] != 0)
-        makeFree (p);
-    std::size_t first = 0;
-    for (int ring = 0; ring < rings; ++ring)
-      for (const std::size_t last = free_.size (); first < last; ++first)
-        forEachAround (free_[first], [this] (Index q) { makeFree (q); });
-    connect ();
-    return std::move (zones_);
-  }
-
-private:
   struct OnLoop
   {
     std::size_t loop;
@@ -76,25 +38,66 @@ private:
     Vector3d normal;
   };
 
-  Vector3d normalOf (Index t) const { return areaVectorOf (mesh_.triangles[t], positions_); }
+  const TriangleMesh& mesh;
+  const Positions& positions;
+  const LocalGeometry& geometry;
+  bool whole_loops, closes_gaps;
+  const RunContext& run;
+  std::vector<std::vector<Index>> loops = {};
+  std::vector<double> lengths = {}; // of the loops
+  std::unordered_map<Index, OnLoop> on_loop = {};
+  Flags is_wrong = {}, is_disturbed = {}; // of each point
+  DisturbedZones zones = {};
+  std::vector<Index> free = {};
+  std::vector<Index> fan = {}; // scratch
+
+  DisturbedZones find (const std::vector<CrossingPair>& crossing, int rings)
+  {
+    for (const Index t : mesh.triangle_of)
+      is_wrong.push_back (t == NONE ? 1 : 0);
+    for (const CrossingPair& pair : crossing)
+      for (const Index t : {pair.first, pair.second})
+        for (const Index p : mesh.triangles[t])
+          is_wrong[p] = 1;
+    readLoops ();
+    is_disturbed = is_wrong;
+    markGaps ();
+    if (std::find (is_wrong.begin (), is_wrong.end (), 1) == is_wrong.end ())
+      return {};
+    markDisturbed ();
+    markGaps ();
+    for (const std::vector<Index>& loop : loops)
+      for (const Index p : loop)
+        zones.is_boundary[p] = is_disturbed[p] == 0 ? 1 : 0;
+    for (Index p = 0; p < positions.size (); ++p)
+      if (is_disturbed[p] != 0)
+        makeFree (p);
+    std::size_t first = 0;
+    for (int ring = 0; ring < rings; ++ring)
+      for (const std::size_t last = free.size (); first < last; ++first)
+        forEachAround (free[first], [this] (Index q) { makeFree (q); });
+    connect ();
+    return std::move (zones);
+  }
+
+  Vector3d normalOf (Index t) const { return areaVectorOf (mesh.triangles[t], positions); }
 
   void readLoops ()
   {
-    loops_ = boundaryLoops (mesh_, run_);
-    std::vector<Index> fan;
-    for (std::size_t l = 0; l < loops_.size (); ++l) {
+    loops = boundaryLoops (mesh, run);
+    for (std::size_t l = 0; l < loops.size (); ++l) {
       double way = 0.0;
-      Index last = loops_[l].back ();
-      for (const Index p : loops_[l]) {
-        way += (positions_[p] - positions_[last]).norm ();
+      Index last = loops[l].back ();
+      for (const Index p : loops[l]) {
+        way += (positions[p] - positions[last]).norm ();
         last = p;
         Vector3d normal = Vector3d::Zero ();
-        mesh_.fan (p, fan);
+        mesh.fan (p, fan);
         for (const Index t : fan)
           normal += normalOf (t);
-        on_loop_.emplace (p, OnLoop{l, way, normal.normalized ()});
+        on_loop.emplace (p, OnLoop{l, way, normal.normalized ()});
       }
-      lengths_.push_back (way);
+      lengths.push_back (way);
     }
   }
 
@@ -102,23 +105,22 @@ private:
   // the boundary; on the same sheet only if it is so near that the points show no gap.
   bool isBesideSheet (Index p, double within) const
   {
-    const OnLoop& here = on_loop_.at (p);
-    const Row around = geometry_.neighbors.row (p);
+    const OnLoop& here = on_loop.at (p);
+    const Row around = geometry.neighbors.row (p);
     return std::any_of (around.begin (), around.end (), [&] (Index q) {
-      const auto at = on_loop_.find (q);
-      if (at == on_loop_.end ())
+      const auto at = on_loop.find (q);
+      if (at == on_loop.end ())
         return false;
       const OnLoop& there = at->second;
       const bool is_same = here.normal.dot (there.normal) > SAME_SHEET;
-      const double distance = (positions_[q] - positions_[p]).norm ();
+      const double distance = (positions[q] - positions[p]).norm ();
       if (distance >
-              (is_same ? TOUCHING : within) * static_cast<double> (geometry_.meshSpacing ()[p]) ||
-          (is_same && mesh_.hasEdge (p, q)))
+              (is_same ? TOUCHING : within) * static_cast<double> (geometry.meshSpacing ()[p]) ||
+          (is_same && mesh.hasEdge (p, q)))
         return false;
       const double way = std::abs (there.way - here.way);
       const double least = is_same ? static_cast<double> (LONG_RUN) : 2.0;
-      return there.loop != here.loop ||
-             std::min (way, lengths_[here.loop] - way) > least * distance;
+      return there.loop != here.loop || std::min (way, lengths[here.loop] - way) > least * distance;
     });
   }
 
@@ -126,11 +128,11 @@ private:
   // window in a sheet has only that sheet around it.
   void markGaps ()
   {
-    if (!closes_gaps_)
+    if (!closes_gaps)
       return;
-    for (const std::vector<Index>& loop : loops_)
+    for (const std::vector<Index>& loop : loops)
       for (const Index p : pointsOfGap (loop))
-        is_wrong_[p] = is_disturbed_[p] = 1;
+        is_wrong[p] = is_disturbed[p] = 1;
   }
 
   // The whole of a loop that is a gap. Of one that is a true boundary elsewhere: where it runs along
@@ -142,8 +144,8 @@ private:
     const std::vector<Index> beside = besideSheet (loop, BESIDE);
     if (static_cast<double> (beside.size ()) >= GAP_SHARE * static_cast<double> (loop.size ())) {
       const bool all_along = stretches (loop, beside).size () == loop.size ();
-      zones_.may_be_parts = zones_.may_be_parts || !all_along;
-      if (all_along || whole_loops_)
+      zones.may_be_parts = zones.may_be_parts || !all_along;
+      if (all_along || whole_loops)
         return loop;
     }
     return stretches (loop, besideSheet (loop, TOUCHING));
@@ -153,7 +155,7 @@ private:
   std::vector<Index> besideSheet (const std::vector<Index>& loop, double within) const
   {
     return indicesWhere (loop.size (), [&] (Index i) {
-      return is_disturbed_[loop[i]] != 0 || isBesideSheet (loop[i], within);
+      return is_disturbed[loop[i]] != 0 || isBesideSheet (loop[i], within);
     });
   }
 
@@ -190,16 +192,16 @@ private:
   // centre of a ball is that of the circle plus a multiple of the normal.
   bool isDelaunay (Index t) const
   {
-    const Triangle& corners = mesh_.triangles[t];
-    const Vector3d& a = positions_[corners[0]];
-    const Vector3d ab = positions_[corners[1]] - a, ac = positions_[corners[2]] - a,
+    const Triangle& corners = mesh.triangles[t];
+    const Vector3d& a = positions[corners[0]];
+    const Vector3d ab = positions[corners[1]] - a, ac = positions[corners[2]] - a,
                    normal = ab.cross (ac), to_centre = toCircumcentre (ab, ac, normal);
     double least = -std::numeric_limits<double>::infinity (), most = -least;
     for (const Index corner : corners)
-      for (const Index p : geometry_.neighbors.row (corner)) {
+      for (const Index p : geometry.neighbors.row (corner)) {
         if (isCorner (corners, p))
           continue;
-        const Vector3d offset = positions_[p] - a;
+        const Vector3d offset = positions[p] - a;
         const double up = 2.0 * normal.dot (offset),
                      outside = offset.squaredNorm () - 2.0 * offset.dot (to_centre);
         if (up > 0.0)
@@ -213,12 +215,12 @@ private:
 
   void markDisturbed ()
   {
-    const std::size_t count = mesh_.triangles.size ();
+    const std::size_t count = mesh.triangles.size ();
     Flags is_marked (count, 0);
-    parallelPoints (run_, count, [&] (Index t) {
+    parallelPoints (run, count, [&] (Index t) {
       const Vector3d normal = normalOf (t);
       bool bends = false, folds = false;
-      for (const Index u : mesh_.neighbors[t])
+      for (const Index u : mesh.neighbors[t])
         if (u != NONE) {
           bends = bends || isBent (normal, normalOf (u));
           folds = folds || isFold (normal, normalOf (u));
@@ -227,72 +229,59 @@ private:
     });
     for (Index t = 0; t < count; ++t)
       if (is_marked[t] != 0)
-        for (const Index p : mesh_.triangles[t])
-          is_disturbed_[p] = 1;
-    zones_.is_free.assign (positions_.size (), 0);
-    zones_.is_boundary.assign (positions_.size (), 0);
+        for (const Index p : mesh.triangles[t])
+          is_disturbed[p] = 1;
+    zones.is_free.assign (positions.size (), 0);
+    zones.is_boundary.assign (positions.size (), 0);
   }
 
-  bool isFree (Index p) const { return zones_.is_free[p] != 0; }
+  bool isFree (Index p) const { return zones.is_free[p] != 0; }
 
   void makeFree (Index p)
   {
-    if (isFree (p) || zones_.is_boundary[p] != 0)
+    if (isFree (p) || zones.is_boundary[p] != 0)
       return;
-    zones_.is_free[p] = 1;
-    free_.push_back (p);
+    zones.is_free[p] = 1;
+    free.push_back (p);
   }
 
   // Calls visit (q) for the corners of the triangles around a point.
   template <typename Visit>
   void forEachAround (Index p, Visit&& visit)
   {
-    mesh_.fan (p, fan_);
-    for (const Index t : fan_)
-      for (const Index q : mesh_.triangles[t])
+    mesh.fan (p, fan);
+    for (const Index t : fan)
+      for (const Index q : mesh.triangles[t])
         visit (q);
   }
 
   // Zones with something wrong in them; the others are not free any more.
   void connect ()
   {
-    std::sort (free_.begin (), free_.end ());
-    DisjointSets sets (positions_.size ());
-    for (const Index p : free_) {
+    std::sort (free.begin (), free.end ());
+    DisjointSets sets (positions.size ());
+    for (const Index p : free) {
       forEachAround (p, [&] (Index q) { sets.join (p, q); });
-      for (const Index q : geometry_.neighbors.row (p))
+      for (const Index q : geometry.neighbors.row (p))
         if (isFree (q))
           sets.join (p, q);
     }
     std::set<Index> wrong;
-    for (const Index p : free_)
-      if (is_wrong_[p] != 0)
+    for (const Index p : free)
+      if (is_wrong[p] != 0)
         wrong.insert (sets.find (p));
     std::map<Index, Index> zone_of;
-    for (const Index p : free_)
+    for (const Index p : free)
       if (wrong.count (sets.find (p)) == 0)
-        zones_.is_free[p] = 0;
+        zones.is_free[p] = 0;
       else
         zone_of.emplace (sets.find (p), static_cast<Index> (zone_of.size ()));
-    zones_.points = makeCsrLists (zone_of.size (), [&] (const auto& emit) {
-      for (const Index p : free_)
+    zones.points = makeCsrLists (zone_of.size (), [&] (const auto& emit) {
+      for (const Index p : free)
         if (isFree (p))
           emit (zone_of.at (sets.find (p)), p);
     });
   }
-
-  const TriangleMesh& mesh_;
-  const Positions& positions_;
-  const LocalGeometry& geometry_;
-  const bool whole_loops_, closes_gaps_;
-  const RunContext& run_;
-  std::vector<std::vector<Index>> loops_;
-  std::vector<double> lengths_; // of the loops
-  std::unordered_map<Index, OnLoop> on_loop_;
-  Flags is_wrong_, is_disturbed_; // of each point
-  DisturbedZones zones_;
-  std::vector<Index> free_;
-  std::vector<Index> fan_; // scratch
 };
 
 } // namespace
@@ -302,8 +291,8 @@ findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
                     const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
                     int rings, bool whole_loops, bool closes_gaps, const RunContext& run)
 {
-  return ZoneFinder (mesh, positions, geometry, whole_loops, closes_gaps, run)
-      .find (crossing, rings);
+  return ZoneFinder{mesh, positions, geometry, whole_loops, closes_gaps, run}.find (crossing,
+                                                                                    rings);
 }
 
 } // namespace pcl::floater

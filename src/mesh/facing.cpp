@@ -50,54 +50,58 @@ certaintyOfUp (const Vector3d& normal)
 }
 
 // Decides the front of each object.
-class FacingJudge
+struct FacingJudge
 {
-public:
-  FacingJudge (const TriangleMesh& mesh, const Positions& positions, const MeshComponents& found,
-               const FacingObjects& objects, const FacingHints& hints, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), found_ (found), objects_ (objects), hints_ (hints),
-        run_ (run), judged_ (objects.sums.size ()), is_turned_ (objects.sums.size (), 0),
-        is_body_ (objects.sums.size (), 0)
-  {
-  }
+  const TriangleMesh& mesh;
+  const Positions& positions;
+  const MeshComponents& found;
+  const FacingObjects& objects;
+  const FacingHints& hints;
+  const RunContext& run;
+  std::vector<FacingObject> judged = std::vector<FacingObject> (objects.sums.size ());
+  Flags is_turned = Flags (judged.size (), 0); // of each object
+  Flags is_body = Flags (judged.size (), 0);   // of each object: may contain others
+  std::optional<TriangleRays> known_rays = {}; // made on demand
+  std::vector<double> bulges = {};             // of each object, made on demand
+  std::optional<double> common_bulge = {};     // made on demand
 
   std::vector<FacingObject> judge ()
   {
     std::vector<Index> open;
-    for (Index o = 0; o < judged_.size (); ++o) {
-      const FacingSums& sums = objects_.sums[o];
-      FacingObject& object = judged_[o];
+    for (Index o = 0; o < judged.size (); ++o) {
+      const FacingSums& sums = objects.sums[o];
+      FacingObject& object = judged[o];
       object.triangles = sums.triangles;
       object.at = sums.at;
       object.mean_normal = sums.meanNormal ();
-      const bool by_side = hints_.wantsASide ();
-      is_body_[o] = sums.is_closed ? 1 : 0;
-      if (hints_.normals != nullptr && sums.told == 0.0)
-        object.miss = sums.contradictory > 0.0           ? FacingMiss::CONTRADICTION
-                      : hints_.wanted == Facing::NORMALS ? FacingMiss::NO_NORMALS
-                                                         : FacingMiss::NOTHING;
+      const bool by_side = hints.wantsASide ();
+      is_body[o] = sums.is_closed ? 1 : 0;
+      if (hints.normals != nullptr && sums.told == 0.0)
+        object.miss = sums.contradictory > 0.0          ? FacingMiss::CONTRADICTION
+                      : hints.wanted == Facing::NORMALS ? FacingMiss::NO_NORMALS
+                                                        : FacingMiss::NOTHING;
       if (sums.told > 0.0)
         decide (o, FacingRule::NORMALS, sums.along < 0.0,
                 0.5 + 0.5 * std::abs (sums.along) / sums.told);
-      else if (hints_.wanted == Facing::UP && !sums.is_closed)
+      else if (hints.wanted == Facing::UP && !sums.is_closed)
         decideUp (o);
       // A closed component has one side towards the sensor only if the sensor is within it.
-      else if (hints_.wanted == Facing::VIEWPOINT &&
+      else if (hints.wanted == Facing::VIEWPOINT &&
                (sums.is_closed ? std::abs (sums.seen) > FacingLimits::WITHIN_SHARE * sums.in_sight
-                               : !hints_.faces_sensor))
+                               : !hints.faces_sensor))
         decideBySensor (o); // NOLINT(bugprone-branch-clone): the order is that of the evidence
       else if (sums.is_closed) {
-        if (hints_.wanted == Facing::UP || hints_.wanted == Facing::VIEWPOINT)
+        if (hints.wanted == Facing::UP || hints.wanted == Facing::VIEWPOINT)
           object.miss = FacingMiss::CLOSED;
         decide (o, FacingRule::CLOSED, sums.volume < 0.0, 1.0);
       }
-      else if (!by_side && hints_.faces_sensor)
+      else if (!by_side && hints.faces_sensor)
         decide (o, FacingRule::SENSOR, false, 1.0);
-      else if (!by_side && hints_.sensor &&
+      else if (!by_side && hints.sensor &&
                std::abs (sums.seen) >= FacingLimits::SEEN_SHARE * sums.in_sight)
         decideBySensor (o);
       else if (!by_side && isRoom (sums)) {
-        is_body_[o] = 0; // furniture is no wall of a hollow
+        is_body[o] = 0; // furniture is no wall of a hollow
         decide (o, FacingRule::ROOM, sums.volume > 0.0, ROOM_CERTAINTY);
       }
       // The back side is visible from at least |mean normal| of all directions: all light through
@@ -109,25 +113,24 @@ public:
     }
     judgeOpen (open);
     judgeNested ();
-    if (hints_.wanted == Facing::INWARDS)
-      for (std::uint8_t& is_turned : is_turned_)
-        is_turned ^= 1U;
-    return judged_;
+    if (hints.wanted == Facing::INWARDS)
+      for (std::uint8_t& one : is_turned)
+        one ^= 1U;
+    return judged;
   }
 
-  bool isTurned (Index object) const { return is_turned_[object] != 0; }
+  bool isTurned (Index object) const { return is_turned[object] != 0; }
 
-private:
   void decideBySensor (Index o)
   {
-    const FacingSums& sums = objects_.sums[o];
+    const FacingSums& sums = objects.sums[o];
     const double share = sums.in_sight > 0.0 ? std::abs (sums.seen) / sums.in_sight : 0.0;
     decide (o, FacingRule::SENSOR, sums.seen < 0.0, 0.5 + 0.5 * share);
   }
 
   void decideUp (Index o)
   {
-    const FacingSums& sums = objects_.sums[o];
+    const FacingSums& sums = objects.sums[o];
     const double up = sums.area_vector.z ();
     const bool stands = sums.from_above <= FacingLimits::FLATNESS * sums.area;
     decide (o, FacingRule::UP, stands ? facesDown (sums.area_vector) : up < 0.0,
@@ -143,15 +146,15 @@ private:
     }
     const double bulge = bulgeOf (o);
     decide (o, FacingRule::BULGE,
-            bulge == 0.0 ? facesDown (objects_.sums[o].area_vector) : bulge < 0.0,
+            bulge == 0.0 ? facesDown (objects.sums[o].area_vector) : bulge < 0.0,
             0.5 + 0.5 * std::abs (bulge));
   }
 
   double bulgeOf (Index o)
   {
-    if (bulges_.empty ())
-      bulges_ = bulgesOf (mesh_, positions_, found_, objects_);
-    return bulges_[o];
+    if (bulges.empty ())
+      bulges = bulgesOf (mesh, positions, found, objects);
+    return bulges[o];
   }
 
   // How far all that stands bulges to the side that facesDown () makes the front. Parts of a scan
@@ -159,21 +162,21 @@ private:
   double commonBulge ()
   {
     double sum = 0.0, area = 0.0;
-    for (Index o = 0; !common_bulge_ && o < judged_.size (); ++o)
-      if (const FacingSums& sums = objects_.sums[o];
+    for (Index o = 0; !common_bulge && o < judged.size (); ++o)
+      if (const FacingSums& sums = objects.sums[o];
           !sums.is_closed && isUpright (sums.area_vector)) {
         sum += sums.area * bulgeOf (o) * (facesDown (sums.area_vector) ? -1.0 : 1.0);
         area += sums.area;
       }
-    if (!common_bulge_)
-      common_bulge_ = area > 0.0 ? sum / area : 0.0;
-    return *common_bulge_;
+    if (!common_bulge)
+      common_bulge = area > 0.0 ? sum / area : 0.0;
+    return *common_bulge;
   }
 
   // Terrain faces up. What stands was scanned from the side to which it bulges, if it does.
   void decideSheet (Index o, double certainty)
   {
-    const Vector3d& normal = objects_.sums[o].area_vector;
+    const Vector3d& normal = objects.sums[o].area_vector;
     const bool is_down = facesDown (normal);
     const double bulge = isUpright (normal) ? commonBulge () : 0.0;
     if (std::abs (bulge) >= FacingLimits::BULGE)
@@ -182,44 +185,44 @@ private:
       decide (o, FacingRule::SHEET, is_down, std::min (certainty, certaintyOfUp (normal)));
   }
 
-  void decide (Index o, FacingRule rule, bool is_turned, double certainty)
+  void decide (Index o, FacingRule rule, bool turns, double certainty)
   {
-    judged_[o].rule = rule;
-    judged_[o].certainty = certainty;
-    is_turned_[o] = is_turned ? 1 : 0;
+    judged[o].rule = rule;
+    judged[o].certainty = certainty;
+    is_turned[o] = turns ? 1 : 0;
   }
 
   Index objectOf (Index triangle) const
   {
-    return objects_.of_component[found_.of_triangle[triangle]];
+    return objects.of_component[found.of_triangle[triangle]];
   }
 
-  // Lines of sight through these objects, towards their fronts.
-  std::vector<SightLine> linesThrough (const std::vector<Index>& objects) const
+  // Lines of sight through some objects, towards their fronts.
+  std::vector<SightLine> linesThrough (const std::vector<Index>& some) const
   {
-    std::vector<std::optional<SightLineSampler>> samplers (judged_.size ());
-    for (const Index o : objects)
-      samplers[o].emplace (objects_.sums[o].area, objects_.sums[o].triangles);
+    std::vector<std::optional<SightLineSampler>> samplers (judged.size ());
+    for (const Index o : some)
+      samplers[o].emplace (objects.sums[o].area, objects.sums[o].triangles);
     std::vector<SightLine> lines;
-    for (Index t = 0; t < mesh_.triangles.size (); ++t) {
-      const Index component = found_.of_triangle[t];
-      std::optional<SightLineSampler>& sampler = samplers[objects_.of_component[component]];
+    for (Index t = 0; t < mesh.triangles.size (); ++t) {
+      const Index component = found.of_triangle[t];
+      std::optional<SightLineSampler>& sampler = samplers[objects.of_component[component]];
       if (!sampler)
         continue;
-      const Vector3d normal = areaVectorOf (mesh_.triangles[t], positions_);
+      const Vector3d normal = areaVectorOf (mesh.triangles[t], positions);
       const double area = normal.norm ();
       if (area > 0.0)
-        sampler->add (t, area, middleOf (mesh_.triangles[t], positions_),
-                      objects_.sign (component) / area * normal, lines);
+        sampler->add (t, area, middleOf (mesh.triangles[t], positions),
+                      objects.sign (component) / area * normal, lines);
     }
     return lines;
   }
 
   const TriangleRays& rays ()
   {
-    if (!rays_)
-      rays_.emplace (mesh_.triangles, positions_, run_);
-    return *rays_;
+    if (!known_rays)
+      known_rays.emplace (mesh.triangles, positions, run);
+    return *known_rays;
   }
 
   // Number of free lines of each object on either side.
@@ -229,9 +232,9 @@ private:
   };
   // \param blocks (own, other): whether another object, or the same, blocks the lines of an object
   template <typename Blocks>
-  std::vector<Free> lookFrom (const std::vector<Index>& objects, Blocks&& blocks)
+  std::vector<Free> lookFrom (const std::vector<Index>& some, Blocks&& blocks)
   {
-    const std::vector<SightLine> lines = linesThrough (objects);
+    const std::vector<SightLine> lines = linesThrough (some);
     const auto isFree = [&, &all = rays ()] (const SightLine& line, const Vector3d& direction) {
       return !all.forHits (line.middle, direction, [&, own = objectOf (line.triangle)] (Index t) {
         return t != line.triangle && blocks (own, objectOf (t));
@@ -239,13 +242,13 @@ private:
     };
     constexpr std::size_t PER_TASK = 32;
     std::vector<std::array<bool, 2>> are_free (lines.size ()); // towards the front, and the back
-    parallelTasks (run_, (lines.size () + PER_TASK - 1) / PER_TASK, [&] (std::size_t task) {
+    parallelTasks (run, (lines.size () + PER_TASK - 1) / PER_TASK, [&] (std::size_t task) {
       for (std::size_t i = task * PER_TASK; i < std::min (lines.size (), (task + 1) * PER_TASK);
            ++i)
         are_free[i] = {isFree (lines[i], lines[i].direction),
                        isFree (lines[i], -lines[i].direction)};
     });
-    std::vector<Free> free (judged_.size ());
+    std::vector<Free> free (judged.size ());
     for (std::size_t i = 0; i < lines.size (); ++i) {
       Free& of_object = free[objectOf (lines[i].triangle)];
       ++of_object.lines;
@@ -263,26 +266,25 @@ private:
     const std::vector<Free> free =
         lookFrom (open, [] (Index own, Index other) { return own == other; });
     for (const Index o : open) {
-      FacingObject& object = judged_[o];
+      FacingObject& object = judged[o];
       const double lines = static_cast<double> (std::max<std::size_t> (free[o].lines, 1));
       object.front = static_cast<double> (free[o].front) / lines;
       object.back = static_cast<double> (free[o].back) / lines;
       const double body = object.front - object.back;
       const double sheet = FacingLimits::BODY_RATIO * object.mean_normal;
-      const bool is_body = std::abs (body) >= sheet;
-      is_body_[o] = is_body ? 1 : 0;
-      const bool is_inwards = body < 0.0, is_down = facesDown (objects_.sums[o].area_vector);
+      is_body[o] = std::abs (body) >= sheet ? 1 : 0;
+      const bool is_inwards = body < 0.0, is_down = facesDown (objects.sums[o].area_vector);
       const double chance = 0.5 / std::sqrt (lines); // about the standard deviation of a share
-      if (hints_.wantsASide ()) {
+      if (hints.wantsASide ()) {
         decideOutwards (o, body, chance);
         continue;
       }
       // What the sensor saw of half a body may as well be the inside of a bowl.
       const double outside = certaintyOf ((std::abs (body) + chance) / (BOWL + chance));
-      const double up = certaintyOfUp (objects_.sums[o].area_vector);
+      const double up = certaintyOfUp (objects.sums[o].area_vector);
       const double either = certaintyOf ((std::max (std::abs (body), sheet) + chance) /
                                          (std::min (std::abs (body), sheet) + chance));
-      if (!is_body)
+      if (is_body[o] == 0)
         decideSheet (o, is_inwards == is_down ? 1.0 : either);
       else
         decide (o, FacingRule::BODY, is_inwards,
@@ -293,7 +295,7 @@ private:
   // Whether one object may lie within another.
   bool mayLieIn (Index o, Index other) const
   {
-    const FacingSums &inner = objects_.sums[o], &outer = objects_.sums[other];
+    const FacingSums &inner = objects.sums[o], &outer = objects.sums[other];
     Eigen::AlignedBox3d box = outer.box;
     const Vector3d margin = FacingLimits::NESTING_MARGIN * box.sizes ();
     box.min () -= margin;
@@ -308,12 +310,12 @@ private:
   void judgeNested ()
   {
     std::vector<Index> bodies, inner;
-    for (Index o = 0; o < judged_.size (); ++o)
-      if (is_body_[o] != 0)
+    for (Index o = 0; o < judged.size (); ++o)
+      if (is_body[o] != 0)
         bodies.push_back (o);
-    std::vector<std::vector<Index>> around (judged_.size ());
+    std::vector<std::vector<Index>> around (judged.size ());
     for (const Index o : bodies) {
-      if (judged_[o].rule != FacingRule::CLOSED && judged_[o].rule != FacingRule::BODY)
+      if (judged[o].rule != FacingRule::CLOSED && judged[o].rule != FacingRule::BODY)
         continue; // the rules for bodies have not decided
       for (const Index other : bodies)
         if (other != o && mayLieIn (o, other))
@@ -328,7 +330,7 @@ private:
       const std::size_t outside = isTurned (o) ? free[o].back : free[o].front;
       const std::size_t inside = isTurned (o) ? free[o].front : free[o].back;
       const bool is_own =
-          objects_.sums[o].is_closed
+          objects.sums[o].is_closed
               ? outside > 0
               : outside > FacingLimits::OWN_BODY_RATIO * (inside + FacingLimits::CHANCE_LINES);
       if (!is_own)
@@ -359,19 +361,6 @@ private:
     }
     return count;
   }
-
-  const TriangleMesh& mesh_;
-  const Positions& positions_;
-  const MeshComponents& found_;
-  const FacingObjects& objects_;
-  const FacingHints& hints_;
-  const RunContext& run_;
-  std::optional<TriangleRays> rays_; // made on demand
-  std::vector<FacingObject> judged_;
-  Flags is_turned_;                    // of each object
-  Flags is_body_;                      // of each object: may contain others
-  std::vector<double> bulges_;         // of each object, made on demand
-  std::optional<double> common_bulge_; // made on demand
 };
 
 } // namespace
@@ -388,7 +377,7 @@ faceOutwards (TriangleMesh& mesh, const Positions& positions, const FacingHints&
     usable.wanted = Facing::AUTO;
   const MeshComponents found = findComponents (mesh, run);
   const FacingObjects objects = findObjects (mesh, positions, found, usable, run);
-  FacingJudge judge (mesh, positions, found, objects, usable, run);
+  FacingJudge judge{mesh, positions, found, objects, usable, run};
   facing.objects = judge.judge ();
   Flags is_turned;
   for (Index c = 0; c < found.count; ++c)

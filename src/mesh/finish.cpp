@@ -27,11 +27,8 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
                         [&] (Index p) { return is_remade[p] != 0; });
   };
   for (const std::vector<Index>& loop : boundaryLoops (mesh, run))
-    if (loop.size () <= SMALL_LOOP && isBeside (loop)) {
-      pinholes.emplace_back ();
-      pinholes.back ().points = loop;
-      measureLoop (pinholes.back (), positions, spacing);
-    }
+    if (loop.size () <= SMALL_LOOP && isBeside (loop))
+      pinholes.push_back (measureLoop (loop, positions, spacing));
   return fillHoles (mesh, pinholes, positions, cost, run);
 }
 

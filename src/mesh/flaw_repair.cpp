@@ -36,51 +36,56 @@ isFlawed (const TriangleMesh& mesh, const TriangleCost& cost, Index t, Repair re
   return false;
 }
 
-class FlawRepair
+struct FlawRepair
 {
-public:
-  FlawRepair (TriangleMesh& mesh, Flags is_flawed, const std::vector<CrossingPair>& pairs,
-              const CsrLists& neighbors, const TriangleCost& cost, const Positions& positions,
-              Repair repair, const Ridges& ridges, const RepairLimits& limits,
-              const RunContext& run)
-      : mesh_ (mesh), repair_ (repair), ridges_ (ridges), limits_ (limits), run_ (run),
-        is_flawed_ (std::move (is_flawed)), table_ (mesh, positions, pairs, run),
-        mover_ (mesh, positions, neighbors, cost, run),
-        most_tests_ (
-            (repair == Repair::AT_THE_END ? 3 : 1) *
-            std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle)),
-        changed_in_ (mesh.triangles.size (), 1), tried_in_ (mesh.triangle_of.size (), 0)
-  {
-  }
+  TriangleMesh& mesh;
+  Repair repair;
+  const Ridges& ridges;
+  const RepairLimits& limits;
+  const RunContext& run;
+  Flags is_flawed; // of each triangle, see isFlawed
+  CrossingTable& table;
+  VertexMover& mover;
+  std::size_t most_tests =
+      (repair == Repair::AT_THE_END ? 3 : 1) *
+      std::max (limits.fewest_tests, mesh.triangles.size () * limits.tests_per_triangle);
+  std::uint32_t step = 1; // number of kept changes, from 1 on
+  // Of each triangle: the last step that changed it.
+  std::vector<std::uint32_t> changed_in = std::vector<std::uint32_t> (mesh.triangles.size (), 1);
+  // Of each vertex: the step after which it was tried.
+  std::vector<std::uint32_t> tried_in = std::vector<std::uint32_t> (mesh.triangle_of.size (), 0);
+  // Last tries at triangles: by flips, and by rebuilding.
+  std::unordered_map<Index, std::uint32_t> flips_tried_in = {}, rebuild_tried_in = {};
+  std::size_t rebuilt_vertices = 0; // removed and reinserted in all trials
+  Repairs done = {};
+  std::vector<Index> fan = {};
+  std::vector<Index> changed = {}; // triangles, ascending
 
-  Repairs run ()
+  Repairs repairAll ()
   {
-    for (std::size_t pass = 0; pass < limits_.passes && !isSpent (); ++pass) {
-      const std::uint32_t before = step_;
+    for (std::size_t pass = 0; pass < limits.passes && !isSpent (); ++pass) {
+      const std::uint32_t before = step;
       flipAll ();
       moveAll ();
-      if (step_ == before)
+      if (step == before)
         rebuildAll ();
-      if (step_ == before)
+      if (step == before)
         break;
     }
-    return done_;
+    return done;
   }
 
-  CrossingPairs crossing () const { return table_.pairs (); }
-
-private:
   bool isSpent () const
   {
-    return table_.tests () + TESTS_PER_REBUILT_VERTEX * rebuilt_vertices_ >= most_tests_;
+    return table.tests () + TESTS_PER_REBUILT_VERTEX * rebuilt_vertices >= most_tests;
   }
 
-  bool isFlawedOrCrossing (Index t) const { return is_flawed_[t] != 0 || table_.isCrossing (t); }
+  bool isFlawedOrCrossing (Index t) const { return is_flawed[t] != 0 || table.isCrossing (t); }
 
   // Triangles that cross others or are flawed, ascending.
   std::vector<Index> flawedTriangles () const
   {
-    return indicesWhere (is_flawed_.size (), [this] (Index t) { return isFlawedOrCrossing (t); });
+    return indicesWhere (is_flawed.size (), [this] (Index t) { return isFlawedOrCrossing (t); });
   }
 
   // Flips single edges as long as this helps.
@@ -90,19 +95,19 @@ private:
     while (has_changed) {
       has_changed = false;
       const std::vector<Index> triangles = flawedTriangles ();
-      ProgressLoop progress (run_, triangles.size ());
+      ProgressLoop progress (run, triangles.size ());
       for (const Index t : triangles) {
         progress.next ();
-        run_.poll (); // with many crossings, a triangle may take some hundredths of a second
+        run.poll (); // with many crossings, a triangle may take some hundredths of a second
         if (isSpent ())
           return;
-        if (flips_tried_in_[t] >= lastChangeAround (t))
+        if (flips_tried_in[t] >= lastChangeAround (t))
           continue;
-        flips_tried_in_[t] = step_;
+        flips_tried_in[t] = step;
         for (std::uint8_t side = 0; side < 3; ++side) {
-          mesh_.recordChanges ();
+          mesh.recordChanges ();
           if (flip ({t, side})) {
-            ++done_.flips;
+            ++done.flips;
             has_changed = true;
           }
         }
@@ -113,12 +118,12 @@ private:
   // Tries a flip, and keeps it if it helps.
   bool flip (MeshEdge e)
   {
-    const MeshEdge m = mesh_.mate (e);
+    const MeshEdge m = mesh.mate (e);
     if (m.triangle == NONE ||
         (!isFlawedOrCrossing (e.triangle) && !isFlawedOrCrossing (m.triangle)) ||
-        mesh_.hasEdge (mesh_.corner (e), mesh_.corner (m)))
+        mesh.hasEdge (mesh.corner (e), mesh.corner (m)))
       return false;
-    const auto flip_it = [&] { mesh_.flip (e); };
+    const auto flip_it = [&] { mesh.flip (e); };
     if (gainOf (flip_it) <= 0.0)
       return false;
     keep (flip_it);
@@ -130,18 +135,18 @@ private:
   {
     std::vector<Index> vertices;
     for (const Index t : flawedTriangles ())
-      vertices.insert (vertices.end (), mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+      vertices.insert (vertices.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
     sortUnique (vertices);
-    ProgressLoop progress (run_, vertices.size ());
+    ProgressLoop progress (run, vertices.size ());
     for (const Index v : vertices) {
       progress.next ();
       if (isSpent ())
         return;
       if (!isWorthATry (v))
         continue;
-      tried_in_[v] = step_;
+      tried_in[v] = step;
       if (move (v))
-        ++done_.moves;
+        ++done.moves;
     }
   }
 
@@ -151,18 +156,18 @@ private:
   {
     std::vector<Index> triangles = flawedTriangles ();
     // Without partners, the largest number.
-    const auto order = [this] (Index t) { return table_.partnersOf (t).size () - 1; };
+    const auto order = [this] (Index t) { return table.partnersOf (t).size () - 1; };
     std::stable_sort (triangles.begin (), triangles.end (),
                       [&] (Index t, Index u) { return order (t) < order (u); });
     std::size_t tries = 0, successes = 0;
-    ProgressLoop progress (run_, triangles.size ());
+    ProgressLoop progress (run, triangles.size ());
     for (const Index t : triangles) {
       progress.next ();
-      if (!isFlawedOrCrossing (t) || rebuild_tried_in_[t] >= lastChangeAround (t))
+      if (!isFlawedOrCrossing (t) || rebuild_tried_in[t] >= lastChangeAround (t))
         continue;
-      if (isSpent () || tries++ >= limits_.vain_rebuilds + limits_.rebuilds_per_success * successes)
+      if (isSpent () || tries++ >= limits.vain_rebuilds + limits.rebuilds_per_success * successes)
         return;
-      rebuild_tried_in_[t] = step_;
+      rebuild_tried_in[t] = step;
       if (rebuildAround (t))
         ++successes;
     }
@@ -171,20 +176,20 @@ private:
   // Rebuilds a patch around a triangle if this helps: a small one, or else a wider one.
   bool rebuildAround (Index t)
   {
-    std::vector<Index> patch (mesh_.triangles[t].begin (), mesh_.triangles[t].end ());
+    std::vector<Index> patch (mesh.triangles[t].begin (), mesh.triangles[t].end ());
     const auto add = [&] (Index u) {
-      patch.insert (patch.end (), mesh_.triangles[u].begin (), mesh_.triangles[u].end ());
+      patch.insert (patch.end (), mesh.triangles[u].begin (), mesh.triangles[u].end ());
     };
-    for (const Index u : table_.partnersOf (t))
+    for (const Index u : table.partnersOf (t))
       add (u);
-    for (const Index u : mesh_.neighbors[t])
-      if (u != NONE && !table_.isCrossing (t))
+    for (const Index u : mesh.neighbors[t])
+      if (u != NONE && !table.isCrossing (t))
         add (u);
     sortUnique (patch);
-    for (std::size_t ring = 0; ring < limits_.rebuilt_rings; ++ring) {
+    for (std::size_t ring = 0; ring < limits.rebuilt_rings; ++ring) {
       if (ring > 0)
-        addRing (mesh_, patch);
-      if (patch.size () > limits_.largest_patch)
+        addRing (mesh, patch);
+      if (patch.size () > limits.largest_patch)
         return false;
       if (rebuild (patch))
         return true;
@@ -197,15 +202,15 @@ private:
   bool rebuild (std::vector<Index> vertices)
   {
     std::mt19937 random (1);
-    for (std::size_t order = 0; order < limits_.rebuilt_orders; ++order) {
-      run_.poll ();
+    for (std::size_t order = 0; order < limits.rebuilt_orders; ++order) {
+      run.poll ();
       bool is_possible = true;
-      const auto change = [&] { is_possible = mover_.rebuild (vertices) && is_possible; };
-      mesh_.recordChanges ();
-      rebuilt_vertices_ += 2 * vertices.size ();
+      const auto change = [&] { is_possible = mover.rebuild (vertices) && is_possible; };
+      mesh.recordChanges ();
+      rebuilt_vertices += 2 * vertices.size ();
       if (gainOf (change) > 0.0 && is_possible) {
         keep (change);
-        ++done_.rebuilds;
+        ++done.rebuilds;
         return true;
       }
       for (std::size_t i = vertices.size (); i > 1; --i)
@@ -218,43 +223,43 @@ private:
   // its last try.
   bool isWorthATry (Index v)
   {
-    mesh_.fan (v, fan_);
-    return std::any_of (fan_.begin (), fan_.end (),
+    mesh.fan (v, fan);
+    return std::any_of (fan.begin (), fan.end (),
                         [this] (Index t) { return isFlawedOrCrossing (t); }) &&
-           std::any_of (fan_.begin (), fan_.end (),
-                        [&] (Index t) { return lastChangeAround (t) > tried_in_[v]; });
+           std::any_of (fan.begin (), fan.end (),
+                        [&] (Index t) { return lastChangeAround (t) > tried_in[v]; });
   }
 
   // The last step that changed a triangle, one beside it, or one that crosses it.
   std::uint32_t lastChangeAround (Index t) const
   {
-    std::uint32_t last = changed_in_[t];
-    for (const Index u : mesh_.neighbors[t])
+    std::uint32_t last = changed_in[t];
+    for (const Index u : mesh.neighbors[t])
       if (u != NONE)
-        last = std::max (last, changed_in_[u]);
-    for (const Index u : table_.partnersOf (t))
-      last = std::max (last, changed_in_[u]);
+        last = std::max (last, changed_in[u]);
+    for (const Index u : table.partnersOf (t))
+      last = std::max (last, changed_in[u]);
     return last;
   }
 
   // Tries all cuts for a vertex, and keeps the best one if it helps.
   bool move (Index v)
   {
-    mesh_.recordChanges ();
+    mesh.recordChanges ();
     double best = 0.0;
     const Cut* best_cut = nullptr;
-    const std::vector<Cut> cuts = mover_.cutsFor (v);
+    const std::vector<Cut> cuts = mover.cutsFor (v);
     for (const Cut& cut : cuts) {
-      run_.poll ();
+      run.poll ();
       if (isSpent ())
         break;
-      if (const double gain = gainOf ([&] { mover_.moveTo (v, cut); }); gain > best) {
+      if (const double gain = gainOf ([&] { mover.moveTo (v, cut); }); gain > best) {
         best = gain;
         best_cut = &cut;
       }
     }
     if (best_cut != nullptr)
-      keep ([&] { mover_.moveTo (v, *best_cut); });
+      keep ([&] { mover.moveTo (v, *best_cut); });
     return best_cut != nullptr;
   }
 
@@ -264,26 +269,26 @@ private:
   template <typename Change>
   double gainOf (Change&& change)
   {
-    const std::size_t mark = mesh_.mark ();
+    const std::size_t mark = mesh.mark ();
     change ();
-    changed_ = mesh_.changedTriangles ();
+    changed = mesh.changedTriangles ();
     const Flaws after = flaws ();
-    mesh_.undo (mark);
+    mesh.undo (mark);
     const Flaws before = flaws ();
     const auto gain = [&] (long pairs) {
-      return before.cost - after.cost - limits_.pair_cost * static_cast<double> (pairs);
+      return before.cost - after.cost - limits.pair_cost * static_cast<double> (pairs);
     };
     const long folds = after.folds - before.folds;
-    const bool trades = repair_ == Repair::BEFORE_REMAKING;
-    const long pairs_there = table_.pairsOf (changed_);
+    const bool trades = repair == Repair::BEFORE_REMAKING;
+    const long pairs_there = table.pairsOf (changed);
     if (after.long_triangles > before.long_triangles || after.ridges < before.ridges ||
         folds > (trades ? pairs_there : 0) || !(gain (-pairs_there) > VertexMover::IMPROVES))
       return 0.0;
     const long most_pairs = trades ? -folds : 0;
     change ();
-    const long pairs = table_.tryChange (changed_, std::max (most_pairs, 0L) + 1);
-    mesh_.undo (mark);
-    table_.renewBoxes (changed_);
+    const long pairs = table.tryChange (changed, std::max (most_pairs, 0L) + 1);
+    mesh.undo (mark);
+    table.renewBoxes (changed);
     return pairs <= most_pairs && gain (pairs) > VertexMover::IMPROVES ? gain (pairs) : 0.0;
   }
 
@@ -291,20 +296,19 @@ private:
   void keep (Change&& change)
   {
     change ();
-    changed_ = mesh_.changedTriangles ();
-    table_.accept (changed_);
-    ++step_;
+    changed = mesh.changedTriangles ();
+    table.accept (changed);
+    ++step;
     const auto normal = [this] (Index t) -> Vector3d {
-      return mover_.cost () (mesh_.triangles[t]).unit_normal;
+      return mover.cost () (mesh.triangles[t]).unit_normal;
     };
     const auto look = [&] (Index t) {
-      is_flawed_[t] =
-          isFlawed (mesh_, mover_.cost ().plain (), t, repair_, ridges_, normal) ? 1 : 0;
+      is_flawed[t] = isFlawed (mesh, mover.cost ().plain, t, repair, ridges, normal) ? 1 : 0;
     };
-    for (const Index t : changed_) {
-      changed_in_[t] = step_;
+    for (const Index t : changed) {
+      changed_in[t] = step;
       look (t);
-      for (const Index u : mesh_.neighbors[t])
+      for (const Index u : mesh.neighbors[t])
         if (u != NONE)
           look (u);
     }
@@ -319,46 +323,27 @@ private:
   // Flaws of the changed triangles and their edges.
   Flaws flaws ()
   {
-    CachedCost& cost = mover_.cost ();
+    CachedCost& cost = mover.cost ();
     Flaws sum;
-    for (const Index t : changed_) {
-      const TriangleCost::Value own = cost (mesh_.triangles[t]);
+    for (const Index t : changed) {
+      const TriangleCost::Value own = cost (mesh.triangles[t]);
       sum.cost += own.cost;
-      sum.long_triangles += cost.plain ().isLong (mesh_.triangles[t]) ? 1 : 0;
+      sum.long_triangles += cost.plain.isLong (mesh.triangles[t]) ? 1 : 0;
       for (std::uint8_t side = 0; side < 3; ++side) {
-        const Index u = mesh_.neighbors[t][side];
-        if (u == NONE || (t > u && std::binary_search (changed_.begin (), changed_.end (), u)))
+        const Index u = mesh.neighbors[t][side];
+        if (u == NONE || (t > u && std::binary_search (changed.begin (), changed.end (), u)))
           continue;
-        if (ridges_.has (mesh_.from ({t, side}), mesh_.to ({t, side}))) {
+        if (ridges.has (mesh.from ({t, side}), mesh.to ({t, side}))) {
           ++sum.ridges;
           continue;
         }
-        const Vector3d normal = cost (mesh_.triangles[u]).unit_normal;
+        const Vector3d normal = cost (mesh.triangles[u]).unit_normal;
         sum.folds += isFold (own.unit_normal, normal) ? 1 : 0;
-        sum.cost += cost.plain ().ofEdge (own.unit_normal, normal);
+        sum.cost += TriangleCost::ofEdge (own.unit_normal, normal);
       }
     }
     return sum;
   }
-
-  TriangleMesh& mesh_;
-  Repair repair_;
-  const Ridges& ridges_;
-  RepairLimits limits_;
-  RunContext run_;
-  Flags is_flawed_; // of each triangle, see isFlawed
-  CrossingTable table_;
-  VertexMover mover_;
-  std::size_t most_tests_;
-  std::uint32_t step_ = 1;                // number of kept changes, from 1 on
-  std::vector<std::uint32_t> changed_in_; // of each triangle: the last step that changed it
-  std::vector<std::uint32_t> tried_in_;   // of each vertex: the step after which it was tried
-  // Last tries at triangles: by flips, and by rebuilding.
-  std::unordered_map<Index, std::uint32_t> flips_tried_in_, rebuild_tried_in_;
-  std::size_t rebuilt_vertices_ = 0; // removed and reinserted in all trials
-  Repairs done_;
-  std::vector<Index> fan_;
-  std::vector<Index> changed_; // triangles, ascending
 };
 
 } // namespace
@@ -377,11 +362,12 @@ repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighb
   });
   if (crossing.empty () && std::count (is_flawed.begin (), is_flawed.end (), 1) == 0)
     return {};
-  FlawRepair search (mesh, std::move (is_flawed), crossing, neighbors, cost, positions, repair,
-                     ridges, limits, run);
-  const Repairs done = search.run ();
+  CrossingTable table (mesh, positions, crossing, run);
+  VertexMover mover (mesh, positions, neighbors, cost, run);
+  FlawRepair search{mesh, repair, ridges, limits, run, std::move (is_flawed), table, mover};
+  const Repairs done = search.repairAll ();
   if (done.hasChanged ())
-    crossing = search.crossing ();
+    crossing = table.pairs ();
   return done;
 }
 

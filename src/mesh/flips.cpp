@@ -31,26 +31,26 @@ orientNormals (const TriangleMesh& mesh, const Positions& positions, Normals& no
 }
 
 std::size_t
-EdgeFlipper::run ()
+EdgeFlipper::flipAll ()
 {
   constexpr std::size_t EDGES_PER_POLL = 256;
-  const std::size_t pushed = stack_.size ();
+  const std::size_t pushed = stack.size ();
   std::size_t edges = 0, flips = 0;
-  ProgressLoop progress (run_, pushed);
-  while (!stack_.empty ()) {
+  ProgressLoop progress (run, pushed);
+  while (!stack.empty ()) {
     if (++edges % EDGES_PER_POLL == 0)
-      progress.reach (pushed - std::min (pushed, stack_.size ()));
-    const MeshEdge e = stack_.back ();
-    stack_.pop_back ();
+      progress.reach (pushed - std::min (pushed, stack.size ()));
+    const MeshEdge e = stack.back ();
+    stack.pop_back ();
     if (!improves (e))
       continue;
-    const MeshEdge m = mesh_.mate (e);
-    mesh_.flip (e);
+    const MeshEdge m = mesh.mate (e);
+    mesh.flip (e);
     ++flips;
     for (const Index t : {e.triangle, m.triangle})
       for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{2}})
-        if (mesh_.neighbors[t][side] != NONE)
-          stack_.push_back ({t, side});
+        if (mesh.neighbors[t][side] != NONE)
+          stack.push_back ({t, side});
   }
   return flips;
 }
@@ -58,12 +58,12 @@ EdgeFlipper::run ()
 bool
 EdgeFlipper::improves (MeshEdge e) const
 {
-  const MeshEdge m = mesh_.mate (e);
+  const MeshEdge m = mesh.mate (e);
   if (m.triangle == NONE)
     return false;
-  const Index c = mesh_.corner (e), a = mesh_.from (e), b = mesh_.to (e), d = mesh_.corner (m);
-  const TriangleCost::Value now_cab = cost_ ({c, a, b}), now_dba = cost_ ({d, b, a});
-  const TriangleCost::Value then_cad = cost_ ({c, a, d}), then_dbc = cost_ ({d, b, c});
+  const Index c = mesh.corner (e), a = mesh.from (e), b = mesh.to (e), d = mesh.corner (m);
+  const TriangleCost::Value now_cab = cost ({c, a, b}), now_dba = cost ({d, b, a});
+  const TriangleCost::Value then_cad = cost ({c, a, d}), then_dbc = cost ({d, b, c});
   const double now = now_cab.cost + now_dba.cost;
   const double then = then_cad.cost + then_dbc.cost;
   if (then >= now && now_cab.unit_normal.dot (now_dba.unit_normal) >= 0.0)
@@ -71,17 +71,14 @@ EdgeFlipper::improves (MeshEdge e) const
   // Normals across the other edges of the two triangles; zero at the boundary, so that edges there
   // cost 0.
   const auto across = [this] (Index t, std::uint8_t side) {
-    const Index other = mesh_.neighbors[t][side];
-    return other == NONE ? Vector3d (Vector3d::Zero ())
-                         : cost_ (mesh_.triangles[other]).unit_normal;
+    const Index other = mesh.neighbors[t][side];
+    return other == NONE ? Vector3d (Vector3d::Zero ()) : cost (mesh.triangles[other]).unit_normal;
   };
   const Vector3d at_bc = across (e.triangle, TriangleMesh::next (e.side));
   const Vector3d at_ca = across (e.triangle, TriangleMesh::previous (e.side));
   const Vector3d at_ad = across (m.triangle, TriangleMesh::next (m.side));
   const Vector3d at_db = across (m.triangle, TriangleMesh::previous (m.side));
-  const auto at_edge = [&plain = cost_.plain ()] (const Vector3d& p, const Vector3d& q) {
-    return plain.ofEdge (p, q);
-  };
+  constexpr auto at_edge = TriangleCost::ofEdge;
   const double total = now + at_edge (now_cab.unit_normal, now_dba.unit_normal) +
                        at_edge (at_bc, now_cab.unit_normal) + at_edge (at_ca, now_cab.unit_normal) +
                        at_edge (at_ad, now_dba.unit_normal) + at_edge (at_db, now_dba.unit_normal);
@@ -90,7 +87,7 @@ EdgeFlipper::improves (MeshEdge e) const
       at_edge (at_bc, then_dbc.unit_normal) + at_edge (at_ca, then_cad.unit_normal) +
       at_edge (at_ad, then_cad.unit_normal) + at_edge (at_db, then_dbc.unit_normal);
   constexpr double IMPROVES = 1e-9; // relative; a smaller gain may be rounding
-  return total_then < total - IMPROVES * std::abs (total) && !mesh_.hasEdge (c, d);
+  return total_then < total - IMPROVES * std::abs (total) && !mesh.hasEdge (c, d);
 }
 
 std::size_t
@@ -100,8 +97,8 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
   const std::size_t count = mesh.triangles.size ();
   std::vector<std::vector<MeshEdge>> found ((count + TRIANGLES_PER_TASK - 1) / TRIANGLES_PER_TASK);
   parallelTasks (run, found.size (), [&] (std::size_t task) {
-    CachedCost cached (cost);
-    const EdgeFlipper flipper (mesh, cached, run);
+    CachedCost cached{cost};
+    const EdgeFlipper flipper{mesh, cached, run};
     const auto last = static_cast<Index> (std::min (count, (task + 1) * TRIANGLES_PER_TASK));
     for (auto t = static_cast<Index> (task * TRIANGLES_PER_TASK); t < last; ++t)
       for (std::uint8_t side = 0; side < 3; ++side) {
@@ -110,12 +107,11 @@ flipEdges (TriangleMesh& mesh, const TriangleCost& cost, const RunContext& run)
           found[task].push_back ({t, side});
       }
   });
-  CachedCost cached (cost);
-  EdgeFlipper flipper (mesh, cached, run);
+  CachedCost cached{cost};
+  EdgeFlipper flipper{mesh, cached, run};
   for (auto task = found.rbegin (); task != found.rend (); ++task)
-    for (auto e = task->rbegin (); e != task->rend (); ++e)
-      flipper.push (*e);
-  return flipper.run ();
+    flipper.stack.insert (flipper.stack.end (), task->rbegin (), task->rend ());
+  return flipper.flipAll ();
 }
 
 } // namespace pcl::floater

@@ -19,28 +19,19 @@ orientNormals (const TriangleMesh& mesh, const Positions& positions, Normals& no
 /// Flips edges from a stack, and those around each flipped edge, until no flip lowers the cost of
 /// the mesh. A flip changes the cost of two triangles and their five edges. In the plane, this is
 /// the flip algorithm for Delaunay triangulations (Lee and Schachter 1980).
-class EdgeFlipper
+struct EdgeFlipper
 {
-public:
-  EdgeFlipper (TriangleMesh& mesh, CachedCost& cost, const RunContext& run)
-      : mesh_ (mesh), cost_ (cost), run_ (run)
-  {
-  }
-
-  void push (MeshEdge e) { stack_.push_back (e); }
+  TriangleMesh& mesh;
+  CachedCost& cost;
+  RunContext run;
+  std::vector<MeshEdge> stack = {};
 
   /// Empties the stack.
   /// \return number of flips
-  std::size_t run ();
+  std::size_t flipAll ();
 
   /// Whether the flip of this edge is possible and lowers the cost of the mesh.
   bool improves (MeshEdge e) const;
-
-private:
-  TriangleMesh& mesh_;
-  CachedCost& cost_;
-  RunContext run_;
-  std::vector<MeshEdge> stack_;
 };
 
 /// Flips edges of the whole mesh (see EdgeFlipper), but those of the boundary. Few edges are

@@ -21,13 +21,13 @@ widenedLoops (const TriangleMesh& widened, const std::vector<BoundaryLoop>& loop
 {
   std::vector<BoundaryLoop> found (loops.size ());
   for (std::vector<Index>& points : boundaryLoops (widened, run)) {
-    const auto own = std::find_if (points.begin (), points.end (),
-                                   [&loop_of] (Index p) { return loop_of[p] != NONE; });
-    if (own == points.end () || points == loops[loop_of[*own]].points)
+    const auto at = std::find_if (points.begin (), points.end (),
+                                  [&loop_of] (Index p) { return loop_of[p] != NONE; });
+    if (at == points.end () || points == loops[loop_of[*at]].points)
       continue;
-    BoundaryLoop& loop = found[loop_of[*own]] = loops[loop_of[*own]];
-    loop.points = std::move (points);
-    measureLoop (loop, positions, spacing);
+    const Index own = loop_of[*at];
+    found[own] = measureLoop (std::move (points), positions, spacing);
+    found[own].component = loops[own].component;
   }
   return found;
 }
@@ -59,9 +59,9 @@ findOverHoles (const TriangleMesh& mesh, const std::vector<BoundaryLoop>& loops,
   // A circumradius may reach the mean edge two rings into the surface; or, where the sampling is
   // uneven, EVENNESS times that edge, plus SPREAD times LoopEvidence::irregularity times it.
   constexpr double EVENNESS = 0.4, SPREAD = 4.0;
-  BoundaryPeel peel (mesh);
+  BoundaryPeel peel{mesh};
   std::vector<std::pair<MeshEdge, Index>> edges, next; // of the ring, with their loops
-  for (const MeshEdge e : peel.edges ())
+  for (const MeshEdge e : boundaryEdges (mesh))
     if (const Index loop = loop_of[mesh.from (e)];
         loop != NONE && !loops[loop].judgement.staysOpen ())
       edges.emplace_back (e, loop);

@@ -52,15 +52,15 @@ private:
 };
 
 // Walks from loops into the surface, ring by ring of points, and measures edges.
-class RingWalk
+struct RingWalk
 {
-public:
   static constexpr Index RINGS = 4;
 
-  RingWalk (const TriangleMesh& mesh, const Positions& positions)
-      : mesh_ (mesh), positions_ (positions), ring_of_ (positions.size (), NONE)
-  {
-  }
+  const TriangleMesh& mesh;
+  const Positions& positions;
+  // Of each point, NONE outside of a walk.
+  std::vector<Index> ring_of = std::vector<Index> (positions.size (), NONE);
+  std::vector<Index> fan = {}, beside = {};
 
   // The edges that begin in each ring and do not lead back; ring 0 is the loop.
   std::array<LogLengths, RINGS> walk (const std::vector<Index>& loop)
@@ -68,25 +68,25 @@ public:
     std::array<LogLengths, RINGS> edges;
     std::vector<Index> points = loop; // ring by ring
     for (const Index p : points)
-      ring_of_[p] = 0;
+      ring_of[p] = 0;
     std::size_t first = 0;
     for (Index ring = 0; ring < RINGS; ++ring) {
       const std::size_t last = points.size ();
       for (std::size_t i = first; i < last; ++i)
         for (const Index q : around (points[i]))
-          if (ring_of_[q] == NONE) {
-            ring_of_[q] = ring + 1;
+          if (ring_of[q] == NONE) {
+            ring_of[q] = ring + 1;
             points.push_back (q);
           }
       for (; first < last; ++first) {
         const Index p = points[first];
         for (const Index q : around (p))
-          if (ring_of_[q] > ring || (ring_of_[q] == ring && p < q))
-            edges[ring].add ((positions_[q] - positions_[p]).norm ());
+          if (ring_of[q] > ring || (ring_of[q] == ring && p < q))
+            edges[ring].add ((positions[q] - positions[p]).norm ());
       }
     }
     for (const Index p : points)
-      ring_of_[p] = NONE;
+      ring_of[p] = NONE;
     return edges;
   }
 
@@ -95,25 +95,19 @@ public:
   {
     double angle = PI;
     around (p);
-    for (std::size_t i = 1; i < around_.size (); ++i) {
-      const Vector3d a = positions_[around_[i - 1]] - positions_[p];
-      const Vector3d b = positions_[around_[i]] - positions_[p];
+    for (std::size_t i = 1; i < beside.size (); ++i) {
+      const Vector3d a = positions[beside[i - 1]] - positions[p];
+      const Vector3d b = positions[beside[i]] - positions[p];
       angle -= std::atan2 (a.cross (b).norm (), a.dot (b));
     }
     return angle;
   }
 
-private:
   const std::vector<Index>& around (Index p)
   {
-    mesh_.fan (p, fan_, around_);
-    return around_;
+    mesh.fan (p, fan, beside);
+    return beside;
   }
-
-  const TriangleMesh& mesh_;
-  const Positions& positions_;
-  std::vector<Index> ring_of_; // of each point, NONE outside of a walk
-  std::vector<Index> fan_, around_;
 };
 
 // The largest height of a triangle in a filling of least area.
@@ -214,13 +208,13 @@ fromLargest (std::vector<BoundaryLoop>& loops, Value&& value)
 
 } // namespace
 
-void
-measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing)
+BoundaryLoop
+measureLoop (std::vector<Index> points, const Positions& positions,
+             const std::vector<float>& spacing)
 {
   constexpr std::size_t WIDTH_POINTS = 256; // maximum for the width: its time is quadratic
-  const std::vector<Index>& points = loop.points;
+  BoundaryLoop loop;
   loop.length = perimeter (positions, points);
-  loop.spacing = 0.0;
   for (const Index p : points)
     loop.spacing += spacing[p];
   loop.spacing /= static_cast<double> (std::max<std::size_t> (1, points.size ()));
@@ -231,6 +225,8 @@ measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<f
       sqr_width =
           std::max (sqr_width, (positions[points[i]] - positions[points[j]]).squaredNorm ());
   loop.width = std::sqrt (sqr_width);
+  loop.points = std::move (points);
+  return loop;
 }
 
 std::vector<BoundaryLoop>
@@ -242,11 +238,9 @@ findBoundaryLoops (const TriangleMesh& mesh, const MeshComponents& components,
   ProgressLoop progress (run);
   for (std::vector<Index>& points : boundaryLoops (mesh, run)) {
     progress.next ();
-    BoundaryLoop loop;
-    loop.component = components.of_triangle[mesh.triangle_of[points.front ()]];
-    loop.points = std::move (points);
-    measureLoop (loop, positions, spacing);
-    loops.push_back (std::move (loop));
+    const Index component = components.of_triangle[mesh.triangle_of[points.front ()]];
+    loops.push_back (measureLoop (std::move (points), positions, spacing));
+    loops.back ().component = component;
   }
   return loops;
 }
@@ -271,7 +265,7 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Po
     return star.openingAngle () > EMPTY_ANGLE;
   };
   std::vector<LoopEvidence> evidence;
-  RingWalk rings (mesh, positions);
+  RingWalk rings{mesh, positions};
   PolygonFilling filling (run);
   ProgressLoop progress (run);
   for (BoundaryLoop& loop : loops) {

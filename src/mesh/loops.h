@@ -33,11 +33,12 @@ struct BoundaryLoop
   bool keep_open = false;    ///< it is a boundary of the surface
 };
 
-/// Sets length, width and spacing from the points. For the width of a loop of more than 256 points, at
-/// most 256 at equal steps along it are used: it is too small by at most two of these steps. O(points).
+/// The measured loop of these points. For the width of a loop of more than 256 points, at most 256 at
+/// equal steps along it are used: it is too small by at most two of these steps. O(points).
 /// \param spacing local spacing of each point of the mesh
-void
-measureLoop (BoundaryLoop& loop, const Positions& positions, const std::vector<float>& spacing);
+BoundaryLoop
+measureLoop (std::vector<Index> points, const Positions& positions,
+             const std::vector<float>& spacing);
 
 /// All boundary loops of a mesh, measured, in the order of boundaryLoops (). O(n).
 std::vector<BoundaryLoop>
@@ -97,12 +98,10 @@ judgeLoops (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Po
 void
 judgeTogether (const std::vector<BoundaryLoop*>& loops);
 
-/// Decides by the judgements which loops are kept open: sets BoundaryLoop::keep_open.
-///
-/// The automatic policy keeps likely boundaries, and loops that are too deep to be filled. A
-/// requested number of loops is taken from the most likely boundaries on; the largest loop of each
-/// component is the longest of its likely boundaries. If likely boundaries run out, both use the
-/// length of the loop with no point beyond. O(m log m) for m loops.
+/// Decides by the judgements which loops are kept open (see HolePolicy): sets BoundaryLoop::keep_open.
+/// Automatically, loops that are too deep to be filled are as well. The largest loop of each component
+/// is the longest of its likely boundaries; if these run out, the length of the loop with no point
+/// beyond counts, as for a requested number of loops. O(m log m) for m loops.
 /// \param unit length of one unit of the cloud in the unit of the positions
 void
 chooseOpenLoops (std::vector<BoundaryLoop>& loops, const HoleOptions& holes, double unit);

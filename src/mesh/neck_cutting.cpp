@@ -255,20 +255,19 @@ findCuts (const TriangleMesh& mesh, const Positions& positions, const LocalGeome
 
 // The triangles of cuts that do not overlap, and then those of the mesh that stay.
 std::vector<Triangle>
-withCuts (const TriangleMesh& mesh, const Replacement* first, const Replacement* last,
-          std::size_t& cuts, std::vector<Index>& around)
+withCuts (const TriangleMesh& mesh, const std::vector<Replacement>& found, std::size_t& cuts,
+          std::vector<Index>& around)
 {
   std::vector<Triangle> triangles;
   Flags is_gone (mesh.triangles.size (), 0);
-  for (; first != last; ++first) {
-    if (std::any_of (first->gone.begin (), first->gone.end (),
-                     [&] (Index t) { return is_gone[t] != 0; }))
+  for (const Replacement& cut : found) {
+    if (std::any_of (cut.gone.begin (), cut.gone.end (), [&] (Index t) { return is_gone[t] != 0; }))
       continue;
-    for (const Index t : first->gone) {
+    for (const Index t : cut.gone) {
       is_gone[t] = 1;
       around.insert (around.end (), mesh.triangles[t].begin (), mesh.triangles[t].end ());
     }
-    triangles.insert (triangles.end (), first->triangles.begin (), first->triangles.end ());
+    triangles.insert (triangles.end (), cut.triangles.begin (), cut.triangles.end ());
     ++cuts;
   }
   for (Index t = 0; t < mesh.triangles.size (); ++t)
@@ -295,7 +294,7 @@ cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& g
       return cuts;
     std::vector<Index> again; // points around the cuts: elsewhere, no loop is cut in the next round
     TriangleMesh changed;
-    changed.triangles = withCuts (mesh, made.data (), made.data () + made.size (), cuts, again);
+    changed.triangles = withCuts (mesh, made, cuts, again);
     if (!changed.connect (positions.size (), run))
       throw std::logic_error ("a neck was cut so that the mesh does not fit");
     mesh = std::move (changed);
@@ -321,8 +320,7 @@ cutNecksIfTaken (const TriangleMesh& mesh, const Positions& positions,
     taken.push_back (std::move (cut));
     std::size_t cuts = 0;
     std::vector<Index> around;
-    std::vector<Triangle> triangles =
-        withCuts (mesh, taken.data (), taken.data () + taken.size (), cuts, around);
+    std::vector<Triangle> triangles = withCuts (mesh, taken, cuts, around);
     if (cuts < taken.size () || !take (std::move (triangles)))
       taken.pop_back ();
   }

@@ -56,15 +56,11 @@ cosineAt (MeshEdge e, const TriangleMesh& mesh, const Positions& positions)
 
 } // namespace
 
-std::size_t
+void
 openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
-  const std::vector<MeshEdge> folds = findFolds (mesh, positions, run);
-  if (folds.empty ())
-    return 0;
-  BoundaryPeel peel (mesh);
-  std::size_t count = 0;
-  for (const MeshEdge fold : folds) {
+  BoundaryPeel peel{mesh};
+  for (const MeshEdge fold : findFolds (mesh, positions, run)) {
     const MeshEdge other = mesh.mate (fold);
     if (peel.isBoundary (fold) || peel.isBoundary (other))
       continue;
@@ -83,16 +79,14 @@ openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunCont
     offerAround (other, mesh, peel, offer);
     for (const MeshEdge e : best)
       peel.take (e);
-    count += best.size ();
   }
-  removeTriangles (mesh, std::move (peel).takenTriangles (), run);
-  return count;
+  removeTriangles (mesh, std::move (peel.is_taken), run);
 }
 
 Flags
 chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPair>& pairs)
 {
-  BoundaryPeel peel (mesh);
+  BoundaryPeel peel{mesh};
   bool has_any = false;
   for (const CrossingPair& pair : pairs)
     for (const Index t : {pair.first, pair.second}) {
@@ -107,10 +101,10 @@ chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPa
         has_any = true;
       }
     }
-  return has_any ? std::move (peel).takenTriangles () : Flags ();
+  return has_any ? std::move (peel.is_taken) : Flags ();
 }
 
-std::size_t
+void
 openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& run)
 {
   // Share of the corners of all triangles. An angle that at least this share reaches may belong to the
@@ -121,9 +115,9 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
   constexpr double LARGEST_COSINE = -0.02; // 91 degrees: rounding does not decide in a grid
   constexpr std::size_t SAMPLE = 20'000;   // triangles whose corners are asked
   using Notch = std::tuple<double, Index, std::uint8_t>; // cosine, triangle, side of the boundary
-  BoundaryPeel peel (mesh);
-  if (peel.edges ().empty ())
-    return 0;
+  const std::vector<MeshEdge> edges = boundaryEdges (mesh);
+  if (edges.empty ())
+    return;
   std::vector<double> corners; // cosines, of triangles that are spread evenly over the mesh
   const std::size_t step = std::max<std::size_t> (1, mesh.triangles.size () / SAMPLE);
   ProgressLoop progress (run); // each triangle may load memory pages
@@ -139,9 +133,8 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
     if (cosine < limit)
       notches.emplace (cosine, e.triangle, e.side);
   };
-  for (const MeshEdge e : peel.edges ())
-    offer (e);
-  std::size_t count = 0;
+  std::for_each (edges.begin (), edges.end (), offer);
+  BoundaryPeel peel{mesh};
   while (!notches.empty ()) {
     const auto [cosine, triangle, side] = notches.top ();
     notches.pop ();
@@ -149,12 +142,10 @@ openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& r
     if (!peel.mayTake (e))
       continue;
     peel.take (e);
-    ++count;
     for (const std::uint8_t beside : otherSides (e))
       offer (mesh.mate ({triangle, beside}));
   }
-  removeTriangles (mesh, std::move (peel).takenTriangles (), run);
-  return count;
+  removeTriangles (mesh, std::move (peel.is_taken), run);
 }
 
 } // namespace pcl::floater

@@ -10,49 +10,33 @@ namespace pcl::floater {
 /// Marks triangles to be removed from the boundary; the mesh itself stays unchanged. A triangle may
 /// be removed if it has one boundary edge, and its other corner is inside. So every point keeps a
 /// triangle, the mesh stays a manifold, and the numbers of components and boundary loops and the
-/// genus stay.
-class BoundaryPeel
+/// genus stay. O(n) to begin with.
+struct BoundaryPeel
 {
-public:
-  /// O(n).
-  explicit BoundaryPeel (const TriangleMesh& mesh)
-      : mesh_ (mesh), edges_ (boundaryEdges (mesh)), is_taken_ (mesh.triangles.size (), 0),
-        is_at_boundary_ (boundaryPoints (mesh))
-  {
-  }
+  const TriangleMesh& mesh;
+  Flags is_taken = Flags (mesh.triangles.size (), 0); ///< per triangle; for removeTriangles ()
+  Flags is_at_boundary = boundaryPoints (mesh);       ///< per point
 
-  /// The boundary edges of the mesh, in the order of its triangles.
-  const std::vector<MeshEdge>& edges () const { return edges_; }
-
-  bool isTaken (Index triangle) const { return is_taken_[triangle] != 0; }
+  bool isTaken (Index triangle) const { return is_taken[triangle] != 0; }
 
   /// Whether no triangle is left across an edge.
   bool isBoundary (MeshEdge e) const
   {
-    const Index other = mesh_.neighbors[e.triangle][e.side];
+    const Index other = mesh.neighbors[e.triangle][e.side];
     return other == NONE || isTaken (other);
   }
 
   /// \param e a boundary edge of the remaining mesh
   bool mayTake (MeshEdge e) const
   {
-    return !isTaken (e.triangle) && is_at_boundary_[mesh_.corner (e)] == 0;
+    return !isTaken (e.triangle) && is_at_boundary[mesh.corner (e)] == 0;
   }
 
   /// Removes the triangle of an edge for which mayTake () holds.
-  void take (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 1; }
+  void take (MeshEdge e) { is_taken[e.triangle] = is_at_boundary[mesh.corner (e)] = 1; }
 
   /// Restores the triangle that was removed last.
-  void putBack (MeshEdge e) { is_taken_[e.triangle] = is_at_boundary_[mesh_.corner (e)] = 0; }
-
-  /// Of each triangle: 1 if it is removed. For removeTriangles.
-  Flags takenTriangles () && { return std::move (is_taken_); }
-
-private:
-  const TriangleMesh& mesh_;
-  std::vector<MeshEdge> edges_;
-  Flags is_taken_;       // per triangle
-  Flags is_at_boundary_; // per point
+  void putBack (MeshEdge e) { is_taken[e.triangle] = is_at_boundary[mesh.corner (e)] = 0; }
 };
 
 /// Removes triangles at a folded edge (isFold) near the boundary: one or two, if the fold then
@@ -63,8 +47,7 @@ private:
 /// Measured on the meshes of 96 generated bodies: this ends 19 of the remaining folds, and 24 of
 /// the 27 triangles are not in the ground truth. With three triangles, 23 would end, and 33 of 38
 /// would be wrong.
-/// \return number of triangles removed
-std::size_t
+void
 openBoundaryFolds (TriangleMesh& mesh, const Positions& positions, const RunContext& run);
 
 /// Chooses a triangle of each crossing pair that has one at the boundary, and may do without it: one
@@ -85,8 +68,7 @@ chooseCrossingAtBoundary (const TriangleMesh& mesh, const std::vector<CrossingPa
 /// Measured on 48 generated bodies, cut by a plane or with windows, except those made of CAD parts:
 /// without such triangles the median area error is .35 %, not 1.2 %, and nine of ten that are
 /// removed are not in the ground truth.
-/// \return number of triangles removed
-std::size_t
+void
 openNotches (TriangleMesh& mesh, const Positions& positions, const RunContext& run);
 
 } // namespace pcl::floater

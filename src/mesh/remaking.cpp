@@ -34,14 +34,13 @@ constexpr double FAULTS_LEFT = 0.6;
 // left wrong.
 constexpr int MOST_GROWTHS = 4;
 
-class ZoneRemaker
+struct ZoneRemaker
 {
-public:
-  ZoneRemaker (const TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
-               const DisturbedZones& zones, const RunContext& run)
-      : mesh_ (mesh), positions_ (positions), geometry_ (geometry), zones_ (zones), run_ (run)
-  {
-  }
+  const TriangleMesh& mesh;
+  const Positions& positions;
+  const LocalGeometry& geometry;
+  const DisturbedZones& zones;
+  RunContext run;
 
   // A zone grows by the points at which its new triangles do not fit to the others.
   // \param is_noise out: whether the zone is noise
@@ -53,27 +52,27 @@ public:
       return std::nullopt;
     std::vector<Index> free (zone.begin (), zone.end ());
     for (int growths = 0; growths <= MOST_GROWTHS; ++growths) {
-      const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh_,
-                                      positions_, geometry_.neighbors, zones_);
-      RemadePlace made = remakePlace (at.place, run_);
+      const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh, positions,
+                                      geometry.neighbors, zones);
+      RemadePlace made = remakePlace (at.place, run);
       if (growths == 0)
         is_noise = isNoise (made.flawed, zone.size ()) ? 1 : 0;
       if (!made.is_right || hasLid (made, at.points))
         return std::nullopt;
       dropIslands (at.place, made);
       std::optional<PieceInPlace> after (std::in_place, at.place, made.triangles, made.is_turned,
-                                         run_);
-      const std::vector<Index> misfits = after->misfits (run_);
+                                         run);
+      const std::vector<Index> misfits = after->misfits (run);
       if (misfits.empty ()) {
-        const PieceInPlace before (at.place, at.old, {}, run_);
-        const long handles = before.twiceHandles (run_);
-        while (after->isManifold () && after->twiceHandles (run_) > handles) {
+        const PieceInPlace before (at.place, at.old, {}, run);
+        const long handles = before.twiceHandles (run);
+        while (after->isManifold () && after->twiceHandles (run) > handles) {
           if (!cutHandles (at, *after, handles, made))
             return std::nullopt;
-          after.emplace (at.place, made.triangles, made.is_turned, run_);
+          after.emplace (at.place, made.triangles, made.is_turned, run);
         }
-        if (!after->isManifold () || static_cast<double> (after->faults (run_)) >
-                                         FAULTS_LEFT * static_cast<double> (before.faults (run_)))
+        if (!after->isManifold () || static_cast<double> (after->faults (run)) >
+                                         FAULTS_LEFT * static_cast<double> (before.faults (run)))
           return std::nullopt;
         return newZone (std::move (free), at, made);
       }
@@ -87,7 +86,6 @@ public:
     return std::nullopt;
   }
 
-private:
   // Points of a zone that are near in number are near in space. The surface may end around them.
   bool looksNoisy (Row zone) const
   {
@@ -97,11 +95,10 @@ private:
       const Index* const first =
           zone.first + number * (zone.size () - TRIED_POINTS) / (TRIED_PLACES - 1);
       Place place =
-          placeOf ({first, first + TRIED_POINTS}, mesh_, positions_, geometry_.neighbors, zones_)
-              .place;
+          placeOf ({first, first + TRIED_POINTS}, mesh, positions, geometry.neighbors, zones).place;
       for (std::size_t p = 0; p < place.is_free.size (); ++p)
         place.is_boundary[p] = place.is_free[p] == 0 ? 1 : 0;
-      flawed += remakePlace (place, run_, true).flawed;
+      flawed += remakePlace (place, run, true).flawed;
       tried += TRIED_POINTS;
       if ((i + 1) % TRIED_AT_ONCE == 0 &&
           (SURELY_NOISE * flawed > tried || SURELY_NONE * flawed < tried))
@@ -111,16 +108,16 @@ private:
   }
 
   // The geometry of a place, as far as the search for necks needs it.
-  LocalGeometry geometryOf (const PlaceOfMesh& at, const TriangleMesh& mesh) const
+  LocalGeometry geometryOf (const PlaceOfMesh& at, const TriangleMesh& piece) const
   {
-    LocalGeometry geometry;
-    geometry.neighbors = rowsWithin (geometry_.neighbors, at.points);
-    geometry.spacing = valuesAt (geometry_.meshSpacing (), at.points);
-    geometry.stars.normals.assign (at.points.size (), Vector3f::Zero ());
-    for (const Triangle& t : mesh.triangles)
+    LocalGeometry local;
+    local.neighbors = rowsWithin (geometry.neighbors, at.points);
+    local.spacing = valuesAt (geometry.meshSpacing (), at.points);
+    local.stars.normals.assign (at.points.size (), Vector3f::Zero ());
+    for (const Triangle& t : piece.triangles)
       for (const Index p : t)
-        geometry.stars.normals[p] += areaVectorOf (t, at.place.positions).cast<float> ();
-    return geometry;
+        local.stars.normals[p] += areaVectorOf (t, at.place.positions).cast<float> ();
+    return local;
   }
 
   // Cuts handles along the cheapest loops of free points that do not overlap.
@@ -136,23 +133,23 @@ private:
     Flags is_fixed;
     for (const std::uint8_t is_free : place.is_free)
       is_fixed.push_back (is_free == 0 ? 1 : 0);
-    long twice = piece.twiceHandles (run_);
+    long twice = piece.twiceHandles (run);
     const auto take = [&] (std::vector<Triangle> triangles) {
       const std::size_t all = triangles.size ();
       triangles.erase (std::remove_if (triangles.begin (), triangles.end (),
                                        [&] (const Triangle& t) { return frame.count (t) > 0; }),
                        triangles.end ());
-      const PieceInPlace after (place, triangles, made.is_turned, run_);
+      const PieceInPlace after (place, triangles, made.is_turned, run);
       if (triangles.size () + frame.size () != all || !after.isManifold () ||
-          after.twiceHandles (run_) >= twice || !after.misfits (run_).empty ())
+          after.twiceHandles (run) >= twice || !after.misfits (run).empty ())
         return false;
-      twice = after.twiceHandles (run_);
+      twice = after.twiceHandles (run);
       made.triangles = std::move (triangles);
       return true;
     };
     const auto most = static_cast<std::size_t> (twice - twice_left + 1) / 2; // each is two fewer
     return cutNecksIfTaken (piece.mesh (), place.positions, geometryOf (at, piece.mesh ()),
-                            is_fixed, most, run_, take);
+                            is_fixed, most, run, take);
   }
 
   static NewZone newZone (std::vector<Index> free, const PlaceOfMesh& at, const RemadePlace& made)
@@ -199,13 +196,13 @@ private:
   double usualEdge (Index p) const
   {
     std::vector<Index> fan;
-    mesh_.fan (p, fan);
+    mesh.fan (p, fan);
     double sum = 0.0;
     for (const Index t : fan)
       for (std::uint8_t side = 0; side < 3; ++side)
-        sum += (positions_[mesh_.from ({t, side})] - positions_[mesh_.to ({t, side})]).norm ();
+        sum += (positions[mesh.from ({t, side})] - positions[mesh.to ({t, side})]).norm ();
     const double count = static_cast<double> (3 * std::max<std::size_t> (fan.size (), 1));
-    return std::max (static_cast<double> (geometry_.meshSpacing ()[p]), sum / count);
+    return std::max (static_cast<double> (geometry.meshSpacing ()[p]), sum / count);
   }
 
   bool hasLid (const RemadePlace& made, const std::vector<Index>& points) const
@@ -213,19 +210,13 @@ private:
     return std::any_of (made.triangles.begin (), made.triangles.end (), [&] (const Triangle& t) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index p = points[t[k]], q = points[t[(k + 1) % 3]];
-        if ((positions_[p] - positions_[q]).norm () >
+        if ((positions[p] - positions[q]).norm () >
             LONGEST_EDGE * std::max (usualEdge (p), usualEdge (q)))
           return true;
       }
       return false;
     });
   }
-
-  const TriangleMesh& mesh_;
-  const Positions& positions_;
-  const LocalGeometry& geometry_;
-  const DisturbedZones& zones_;
-  const RunContext run_;
 };
 
 } // namespace
@@ -247,7 +238,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
     Flags is_noise (made.size (), 0);
     if (made.empty ())
       return;
-    const ZoneRemaker remaker (mesh, positions, geometry, zones, run.withThreads (1));
+    const ZoneRemaker remaker{mesh, positions, geometry, zones, run.withThreads (1)};
     remade.is_noisy.resize (positions.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
       made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);

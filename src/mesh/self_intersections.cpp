@@ -163,8 +163,6 @@ CrossingPairs
 findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& positions,
                        const RunContext& run)
 {
-  if (triangles.empty ())
-    return {};
   const std::vector<Index> order = orderByPoints (triangles, positions.size ());
   const BoxTree tree (
       triangles.size (), [&] (std::size_t i) { return boxOf (triangles[order[i]], positions); },

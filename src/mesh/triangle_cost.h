@@ -55,7 +55,7 @@ public:
 
   /// Cost of an edge between two triangles: 0 up to an angle of 90 degrees between their normals,
   /// growing beyond; 0 if one of the normals is zero.
-  double ofEdge (const Vector3d& unit_normal, const Vector3d& other_unit_normal) const
+  static double ofEdge (const Vector3d& unit_normal, const Vector3d& other_unit_normal)
   {
     return FOLD_COST * std::max (0.0, -unit_normal.dot (other_unit_normal));
   }
@@ -73,16 +73,18 @@ private:
 /// TriangleCost with a cache. A local search needs the costs of a few thousand triangles again and
 /// again. A hash table of 8192 entries (400 kB), where a triangle replaces another one with the
 /// same hash. The results are bitwise equal. For one thread.
-class CachedCost
+struct CachedCost
 {
-public:
-  explicit CachedCost (const TriangleCost& cost)
-      : cost_ (cost),
-        entries_ (std::size_t{1} << BITS, Entry{{NONE, NONE, NONE}, {Vector3d::Zero (), 0.0}})
+  struct Entry
   {
-  }
+    Triangle corners = {NONE, NONE, NONE};
+    TriangleCost::Value value = {Vector3d::Zero (), 0.0};
+  };
 
-  const TriangleCost& plain () const { return cost_; }
+  static constexpr int BITS = 13;
+
+  const TriangleCost& plain;
+  std::vector<Entry> entries = std::vector<Entry> (std::size_t{1} << BITS);
 
   /// Valid until the next call.
   const TriangleCost::Value& operator() (const Triangle& triangle)
@@ -95,23 +97,11 @@ public:
     const std::uint64_t mixed = corners[0] * 0x9E3779B97F4A7C15ULL +
                                 corners[1] * 0xC2B2AE3D27D4EB4FULL +
                                 corners[2] * 0x165667B19E3779F9ULL;
-    Entry& entry = entries_[mixed >> (64 - BITS)];
+    Entry& entry = entries[mixed >> (64 - BITS)];
     if (entry.corners != corners)
-      entry = {corners, cost_ (a, b, c)};
+      entry = {corners, plain (a, b, c)};
     return entry.value;
   }
-
-private:
-  struct Entry
-  {
-    Triangle corners;
-    TriangleCost::Value value;
-  };
-
-  static constexpr int BITS = 13;
-
-  const TriangleCost& cost_;
-  std::vector<Entry> entries_;
 };
 
 } // namespace pcl::floater

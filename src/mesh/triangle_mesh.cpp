@@ -16,9 +16,9 @@ TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const
 {
   fan_triangles.clear ();
   std::ptrdiff_t anti_clockwise = 0;
-  for (FanWalk walk (*this, p); walk.triangle () != NONE; walk.advance ()) {
-    fan_triangles.push_back (walk.triangle ());
-    anti_clockwise += walk.isClockwise () ? 0 : 1;
+  for (FanWalk walk{*this, p}; walk.triangle != NONE; walk.advance ()) {
+    fan_triangles.push_back (walk.triangle);
+    anti_clockwise += walk.is_clockwise ? 0 : 1;
   }
   // At the boundary: the clockwise ones come first.
   const auto middle = fan_triangles.begin () + anti_clockwise;
@@ -48,10 +48,10 @@ bool
 TriangleMesh::hasEdge (Index p, Index q) const
 {
   constexpr int HUB = 500; // triangles
-  FanWalk around_p (*this, p), around_q (*this, q);
-  for (int steps = 0; around_p.triangle () != NONE && around_q.triangle () != NONE; ++steps) {
-    if (steps == HUB || isCorner (triangles[around_p.triangle ()], q) ||
-        isCorner (triangles[around_q.triangle ()], p))
+  FanWalk around_p{*this, p}, around_q{*this, q};
+  for (int steps = 0; around_p.triangle != NONE && around_q.triangle != NONE; ++steps) {
+    if (steps == HUB || isCorner (triangles[around_p.triangle], q) ||
+        isCorner (triangles[around_q.triangle], p))
       return true;
     around_p.advance ();
     around_q.advance ();

@@ -172,36 +172,28 @@ private:
 
 /// Visits the triangles around a point: anti-clockwise, at the boundary then clockwise from the
 /// start.
-class FanWalk
+struct FanWalk
 {
-public:
-  FanWalk (const TriangleMesh& mesh, Index p)
-      : mesh_ (mesh), p_ (p), start_ (mesh.triangle_of[p]), at_ (start_)
-  {
-  }
-
-  Index triangle () const { return at_; } ///< NONE: no more
-  bool isClockwise () const { return is_clockwise_; }
+  const TriangleMesh& mesh;
+  Index p;
+  Index start = mesh.triangle_of[p];
+  Index triangle = start; ///< NONE: no more
+  bool is_clockwise = false;
 
   void advance ()
   {
-    if (!is_clockwise_) {
-      at_ = mesh_.neighbors[at_][TriangleMesh::next (mesh_.sideOf (at_, p_))];
-      if (at_ != NONE) {
-        if (at_ == start_)
-          at_ = NONE;
+    if (!is_clockwise) {
+      triangle = mesh.neighbors[triangle][TriangleMesh::next (mesh.sideOf (triangle, p))];
+      if (triangle != NONE) {
+        if (triangle == start)
+          triangle = NONE;
         return;
       }
-      is_clockwise_ = true;
-      at_ = start_;
+      is_clockwise = true;
+      triangle = start;
     }
-    at_ = mesh_.neighbors[at_][TriangleMesh::previous (mesh_.sideOf (at_, p_))];
+    triangle = mesh.neighbors[triangle][TriangleMesh::previous (mesh.sideOf (triangle, p))];
   }
-
-private:
-  const TriangleMesh& mesh_;
-  Index p_, start_, at_;
-  bool is_clockwise_ = false;
 };
 
 /// The boundary edges, in the order of their triangles. O(n).

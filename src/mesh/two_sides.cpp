@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/two_sides.h"
 
+#include "core/disjoint_sets.h"
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"
 
@@ -15,13 +16,7 @@ namespace {
 class SidesOfSpace
 {
 public:
-  struct Side
-  {
-    Index root;
-    bool is_other; // opposite to the root
-
-    bool operator== (const Side& s) const { return root == s.root && is_other == s.is_other; }
-  };
+  using Side = SignedSets::Place; // flipped: opposite to the root
 
   SidesOfSpace (const Tetrahedra& tetrahedra, const Flags& is_free)
       : tetrahedra_ (tetrahedra), parent_ (indicesBelow (tetrahedra.size ())),
@@ -35,10 +30,10 @@ public:
 
   Side of (Index t) const
   {
-    bool is_other = false;
+    bool flipped = false;
     for (; parent_[t] != t; t = parent_[t])
-      is_other = is_other != (is_other_[t] != 0);
-    return {t, is_other};
+      flipped = flipped != (is_other_[t] != 0);
+    return {t, flipped};
   }
 
   // Puts two tetrahedra on the same side or on opposite ones.
@@ -70,7 +65,7 @@ private:
   bool link (Index a, Index b, bool opposite)
   {
     const Side of_a = of (a), of_b = of (b);
-    const bool flips = (of_a.is_other != of_b.is_other) != opposite;
+    const bool flips = (of_a.flipped != of_b.flipped) != opposite;
     if (of_a.root == of_b.root)
       return !flips;
     Index small = of_a.root, large = of_b.root;
@@ -103,7 +98,7 @@ private:
     if (second == first)
       return false;
     return first.root == second.root ||
-           link (first.root, second.root, first.is_other == second.is_other);
+           link (first.root, second.root, first.flipped == second.flipped);
   }
 
   const Tetrahedra& tetrahedra_;
@@ -121,42 +116,8 @@ struct SeenCentre
   double angle, cosine;
 };
 
-class PlaceInSpace
+struct PlaceInSpace
 {
-public:
-  PlaceInSpace (const Place& place, const RunContext& run)
-      : place_ (place), run_ (run), all_ (delaunayInSpace (place.positions)),
-        sides_ (all_, place.is_free)
-  {
-  }
-
-  RemadePlace make (bool only_counts)
-  {
-    RemadePlace made;
-    if (all_.size () == 0)
-      return made;
-    measureFacets ();
-    placeFrame ();
-    joinOutside ();
-    ProgressLoop progress (run_);
-    for (const Facet& f : facets_) {
-      progress.next ();
-      if (!sides_.put (f.one, f.other, false))
-        sides_.put (f.one, f.other, true);
-    }
-    decide (made.is_turned);
-    SideMending mending (all_, place_.is_free, overlap_, is_behind_);
-    made.flawed = mending.flawed ();
-    const auto free = std::count (place_.is_free.begin (), place_.is_free.end (), 1);
-    if (only_counts || isNoise (made.flawed, static_cast<std::size_t> (free)))
-      return made;
-    mending.mend ();
-    made.is_right = mending.flawed () == 0;
-    take (made.triangles);
-    return made;
-  }
-
-private:
   using Side = SidesOfSpace::Side;
 
   struct Facet
@@ -165,10 +126,45 @@ private:
     Index one, other; // tetrahedra, the smaller number first
   };
 
+  const Place& place;
+  const RunContext& run;
+  Tetrahedra all = delaunayInSpace (place.positions);
+  SidesOfSpace sides{all, place.is_free};
+  std::vector<std::array<double, 4>> overlaps = {}; // across each facet
+  std::vector<Facet> facets = {};                   // by falling overlap
+  std::vector<Index> front_of_patch = {};           // a tetrahedron, NONE if there is none
+  Flags is_behind = {};                             // of each tetrahedron
+
+  RemadePlace make (bool only_counts)
+  {
+    RemadePlace made;
+    if (all.size () == 0)
+      return made;
+    measureFacets ();
+    placeFrame ();
+    joinOutside ();
+    ProgressLoop progress (run);
+    for (const Facet& f : facets) {
+      progress.next ();
+      if (!sides.put (f.one, f.other, false))
+        sides.put (f.one, f.other, true);
+    }
+    decide (made.is_turned);
+    SideMending mending{all, place.is_free, overlaps, is_behind};
+    made.flawed = mending.flawed ();
+    const auto free = std::count (place.is_free.begin (), place.is_free.end (), 1);
+    if (only_counts || isNoise (made.flawed, static_cast<std::size_t> (free)))
+      return made;
+    mending.mend ();
+    made.is_right = mending.flawed () == 0;
+    take (made.triangles);
+    return made;
+  }
+
   SeenCentre seenCentre (Index p, const Vector3d& centre, const Vector3d& normal,
                          double radius) const
   {
-    const Vector3d offset = place_.positions[p] - centre;
+    const Vector3d offset = place.positions[p] - centre;
     const double up = normal.dot (offset);
     const double angle =
         std::atan2 (offset.squaredNorm () - radius * radius, 2.0 * radius * std::abs (up));
@@ -177,24 +173,24 @@ private:
 
   void measureFacets ()
   {
-    overlap_.assign (all_.size (), {});
-    for (Index t = 0; t < all_.size (); ++t)
+    overlaps.assign (all.size (), {});
+    for (Index t = 0; t < all.size (); ++t)
       for (unsigned k = 0; k < 4; ++k) {
-        const Index other = all_.neighbors[t][k];
-        const Triangle facet = all_.facet (t, k);
+        const Index other = all.neighbors[t][k];
+        const Triangle facet = all.facet (t, k);
         if (other < t || isCorner (facet, NONE))
           continue;
         unsigned l = 0; // its facet towards `t`
-        while (all_.neighbors[other][l] != t)
+        while (all.neighbors[other][l] != t)
           ++l;
-        const Vector3d& a = place_.positions[facet[0]];
-        const Vector3d ab = place_.positions[facet[1]] - a, ac = place_.positions[facet[2]] - a;
+        const Vector3d& a = place.positions[facet[0]];
+        const Vector3d ab = place.positions[facet[1]] - a, ac = place.positions[facet[2]] - a;
         Vector3d normal = ac.cross (ab); // into the tetrahedron
         const Vector3d to_centre = toCircumcentre (ab, ac, -normal);
         normal.normalize ();
         const double radius = to_centre.norm ();
         const Vector3d centre = a + to_centre;
-        const Index above = all_.corners[t][k], below = all_.corners[other][l];
+        const Index above = all.corners[t][k], below = all.corners[other][l];
         const SeenCentre x =
             above == NONE ? SeenCentre{PI / 2.0, 0.0} : seenCentre (above, centre, normal, radius);
         const SeenCentre y =
@@ -203,10 +199,10 @@ private:
                          (1.0 - std::abs (x.cosine - y.cosine));
         if (!std::isfinite (overlap)) // the facet has hardly any area
           overlap = 0.0;
-        overlap_[t][k] = overlap_[other][l] = overlap;
-        facets_.push_back ({overlap, t, other});
+        overlaps[t][k] = overlaps[other][l] = overlap;
+        facets.push_back ({overlap, t, other});
       }
-    std::sort (facets_.begin (), facets_.end (), [] (const Facet& f, const Facet& g) {
+    std::sort (facets.begin (), facets.end (), [] (const Facet& f, const Facet& g) {
       return std::tie (g.overlap, f.one, f.other) < std::tie (f.overlap, g.one, g.other);
     });
   }
@@ -214,53 +210,50 @@ private:
   // The tetrahedra before and behind a triangle, NONE if it is no facet.
   std::array<Index, 2> besideTriangle (const Triangle& triangle) const
   {
-    for (const Index t : all_.around.row (triangle[0]))
+    for (const Index t : all.around.row (triangle[0]))
       for (unsigned k = 0; k < 4; ++k) {
-        Triangle facet = all_.facet (t, k);
+        Triangle facet = all.facet (t, k);
         std::rotate (facet.begin (), std::find (facet.begin (), facet.end (), triangle[0]),
                      facet.end ());
         // A facet is anti-clockwise seen from outside the tetrahedron, which is then behind it.
         if (facet == triangle)
-          return {all_.neighbors[t][k], t};
+          return {all.neighbors[t][k], t};
       }
     return {NONE, NONE};
   }
 
   void placeFrame ()
   {
-    front_of_patch_.assign (place_.patches, NONE);
-    for (std::size_t i = 0; i < place_.frame.size (); ++i) {
-      const auto [before, behind] = besideTriangle (place_.frame[i]);
+    front_of_patch.assign (place.patches, NONE);
+    for (std::size_t i = 0; i < place.frame.size (); ++i) {
+      const auto [before, behind] = besideTriangle (place.frame[i]);
       if (before == NONE)
         continue;
-      Index& front = front_of_patch_[place_.patch_of[i]];
+      Index& front = front_of_patch[place.patch_of[i]];
       if (front == NONE)
         front = before;
-      sides_.put (front, before, false);
-      sides_.put (front, behind, true);
+      sides.put (front, before, false);
+      sides.put (front, behind, true);
     }
   }
 
   // There is no surface between two infinite tetrahedra near the place, but at a boundary.
   void joinOutside ()
   {
-    for (Index t = 0; t < all_.size (); ++t) {
-      if (!all_.isInfinite (t))
+    for (Index t = 0; t < all.size (); ++t) {
+      if (!all.isInfinite (t))
         continue;
       for (unsigned k = 0; k < 4; ++k) {
-        const Index other = all_.neighbors[t][k];
-        if (all_.corners[t][k] == NONE || other < t)
+        const Index other = all.neighbors[t][k];
+        if (all.corners[t][k] == NONE || other < t)
           continue;
-        bool is_inside = false, is_boundary = true;
-        for (unsigned l = 0; l < 4; ++l) {
-          const Index p = all_.corners[t][l];
-          if (l == k || p == NONE)
-            continue;
-          is_inside = is_inside || place_.is_free[p] != 0 || place_.is_rim[p] != 0;
-          is_boundary = is_boundary && place_.is_boundary[p] != 0;
-        }
-        if (is_inside && !is_boundary)
-          sides_.put (t, other, false);
+        const auto isInside = [this] (Index p) {
+          return p != NONE && (place.is_free[p] != 0 || place.is_rim[p] != 0);
+        };
+        const auto isOff = [this] (Index p) { return p != NONE && place.is_boundary[p] == 0; };
+        const Triangle facet = all.facet (t, k);
+        if (anyCorner (facet, isInside) && anyCorner (facet, isOff))
+          sides.put (t, other, false);
       }
     }
   }
@@ -270,51 +263,41 @@ private:
   void decide (Flags& is_turned)
   {
     std::map<Index, std::array<std::size_t, 2>> votes;
-    for (std::size_t i = 0; i < place_.frame.size (); ++i)
-      if (const Index front = front_of_patch_[place_.patch_of[i]]; front != NONE) {
-        const Side side = sides_.of (front);
-        ++votes[side.root][side.is_other ? 1 : 0];
+    for (std::size_t i = 0; i < place.frame.size (); ++i)
+      if (const Index front = front_of_patch[place.patch_of[i]]; front != NONE) {
+        const Side side = sides.of (front);
+        ++votes[side.root][side.flipped ? 1 : 0];
       }
-    for (Index t = 0; t < all_.size (); ++t)
-      if (all_.isInfinite (t)) {
-        const Side side = sides_.of (t);
+    for (Index t = 0; t < all.size (); ++t)
+      if (all.isInfinite (t)) {
+        const Side side = sides.of (t);
         const auto [at, is_new] = votes.try_emplace (side.root);
         if (is_new)
-          ++at->second[side.is_other ? 1 : 0];
+          ++at->second[side.flipped ? 1 : 0];
       }
     const auto isFront = [&votes] (const Side& side) {
       const auto at = votes.find (side.root);
-      return at != votes.end () && (at->second[1] > at->second[0]) == side.is_other;
+      return at != votes.end () && (at->second[1] > at->second[0]) == side.flipped;
     };
-    is_behind_.resize (all_.size ());
-    for (Index t = 0; t < all_.size (); ++t)
-      is_behind_[t] = isFront (sides_.of (t)) ? 0 : 1;
-    is_turned.assign (place_.patches, 0);
-    for (Index patch = 0; patch < place_.patches; ++patch)
-      if (front_of_patch_[patch] != NONE)
-        is_turned[patch] = isFront (sides_.of (front_of_patch_[patch])) ? 0 : 1;
+    is_behind.resize (all.size ());
+    for (Index t = 0; t < all.size (); ++t)
+      is_behind[t] = isFront (sides.of (t)) ? 0 : 1;
+    is_turned.assign (place.patches, 0);
+    for (Index patch = 0; patch < place.patches; ++patch)
+      if (front_of_patch[patch] != NONE)
+        is_turned[patch] = isFront (sides.of (front_of_patch[patch])) ? 0 : 1;
   }
 
   void take (std::vector<Triangle>& triangles) const
   {
-    for (Index t = 0; t < all_.size (); ++t)
+    for (Index t = 0; t < all.size (); ++t)
       for (unsigned k = 0; k < 4; ++k) {
-        const Triangle facet = all_.facet (t, k);
-        if (is_behind_[t] != 0 && is_behind_[all_.neighbors[t][k]] == 0 &&
-            !isCorner (facet, NONE) &&
-            anyCorner (facet, [&] (Index p) { return place_.is_free[p] != 0; }))
+        const Triangle facet = all.facet (t, k);
+        if (is_behind[t] != 0 && is_behind[all.neighbors[t][k]] == 0 && !isCorner (facet, NONE) &&
+            anyCorner (facet, [&] (Index p) { return place.is_free[p] != 0; }))
           triangles.push_back (facet);
       }
   }
-
-  const Place& place_;
-  const RunContext& run_;
-  const Tetrahedra all_;
-  SidesOfSpace sides_;
-  std::vector<std::array<double, 4>> overlap_; // across each facet
-  std::vector<Facet> facets_;                  // by falling overlap
-  std::vector<Index> front_of_patch_;          // a tetrahedron, NONE if there is none
-  Flags is_behind_;                            // of each tetrahedron
 };
 
 } // namespace
@@ -322,7 +305,7 @@ private:
 RemadePlace
 remakePlace (const Place& place, const RunContext& run, bool only_counts)
 {
-  return PlaceInSpace (place, run).make (only_counts);
+  return PlaceInSpace{place, run}.make (only_counts);
 }
 
 } // namespace pcl::floater

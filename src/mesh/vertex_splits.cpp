@@ -193,7 +193,7 @@ VertexSplitter::turnSpokes (const Cut& cut, Index p, MeshEdge spoke, std::size_t
   }
 }
 
-std::size_t
+void
 splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector<Index>& added,
                const RunContext& run)
 {
@@ -202,7 +202,6 @@ splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector
   const KdTree tree (positions, run);
   std::vector<Neighbor> found;
   std::vector<Index> near;
-  std::size_t points = 0;
   ProgressLoop progress (run, added.size ());
   for (const Index p : added) {
     progress.next ();
@@ -217,12 +216,9 @@ splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector
       near.push_back (neighbor.point);
     const std::vector<Cut>& cuts =
         splitter.cutsFor (p, {near.data (), near.data () + near.size ()});
-    if (cuts.empty ())
-      continue;
-    splitter.split (cuts.front (), p);
-    ++points;
+    if (!cuts.empty ())
+      splitter.split (cuts.front (), p);
   }
-  return points;
 }
 
 std::size_t

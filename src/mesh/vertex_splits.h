@@ -91,8 +91,7 @@ private:
 /// Adds points to a mesh: each, in the given order, by the cheapest split of one of the nearest
 /// vertices. One thread, O(log n) for each point, about 6 microseconds.
 /// \param added points without triangles
-/// \return number of points added
-std::size_t
+void
 splitVertices (TriangleMesh& mesh, const Positions& positions, const std::vector<Index>& added,
                const RunContext& run);
 

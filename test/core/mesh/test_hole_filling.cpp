@@ -264,8 +264,8 @@ TEST (OpenBoundary, FlatAndClosedMeshesStay)
 {
   for (const Mesh& mesh : {sheet (9), honeycomb (8, 7), annulus (12), torus (9, 7), Mesh ()}) {
     TriangleMesh changed = connected (mesh);
-    EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 0U);
-    EXPECT_EQ (openNotches (changed, mesh.positions, 1), 0U);
+    openBoundaryFolds (changed, mesh.positions, 1);
+    openNotches (changed, mesh.positions, 1);
     EXPECT_EQ (changed.triangles, mesh.triangles);
   }
 }
@@ -286,7 +286,8 @@ TEST (BoundaryFolds, AsManyTrianglesBesideTheBoundaryAreTakenOutAsItNeeds)
     TriangleMesh changed = connected (mesh);
     ASSERT_GT (findFolds (changed, mesh.positions, 1).size (), 0U);
     // All folds end, no point is lost, and one boundary loop is left.
-    EXPECT_EQ (openBoundaryFolds (changed, mesh.positions, 1), 2U);
+    openBoundaryFolds (changed, mesh.positions, 1);
+    EXPECT_EQ (changed.triangles.size (), mesh.triangles.size () - 2);
     EXPECT_EQ (findFolds (changed, mesh.positions, 1).size (), 0U);
     expectDisc (changed, mesh.positions.size ());
   }
@@ -334,7 +335,7 @@ TEST (BoundaryNotches, FillingsAreTakenOut)
       filled.triangles.push_back ({last, last - COLUMNS - 1, last + COLUMNS + 1});
   }
   TriangleMesh changed = connected (filled);
-  EXPECT_EQ (openNotches (changed, filled.positions, 1), ROWS - 1U);
+  openNotches (changed, filled.positions, 1);
   EXPECT_EQ (changed.triangles, mesh.triangles);
 }
 

@@ -35,9 +35,8 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 1; j <= stride; ++j)
         step = std::max (step, (positions[(i + j) % count] - positions[i]).norm ());
-    BoundaryLoop loop;
-    loop.points = indices (count);
-    measureLoop (loop, positions, std::vector<float> (count, 0.1F));
+    const BoundaryLoop loop =
+        measureLoop (indices (count), positions, std::vector<float> (count, 0.1F));
     EXPECT_LE (loop.width, exact);
     EXPECT_GE (loop.width, count <= 256 ? exact : exact - 2.0 * step);
   }

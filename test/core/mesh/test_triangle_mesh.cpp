@@ -61,7 +61,7 @@ expectSplits (Mesh mesh, const Positions& points)
     added.push_back (static_cast<Index> (mesh.positions.size ()));
     mesh.positions.push_back (p);
   }
-  EXPECT_EQ (splitVertices (result, mesh.positions, added, 1), points.size ());
+  splitVertices (result, mesh.positions, added, 1);
   expectConsistent (result);
   expectTopology (result.triangles, before.vertices + points.size (), before.components,
                   before.euler, before.loops.size ());
