@@ -177,6 +177,7 @@ def test_columns_are_chosen(tool, read):
         cloud = read("a.xyz", text, "[4,3,5]")
         assert (cloud.points, cloud.text, cloud.warnings) == ([[1.5, 2, -3], [4, 5e-3, 0.1]], fields, [])
         assert read("a.xyz", text, "[4,3,6]").error
+    assert read("a.xyz", "x y z\n0 7 2 1.5 -3 9\n", "[4,5,6]").error  # columns without a name
     tool.fail("--columns 1,2,2 a.xyz o.ply", USAGE, "three different")
     tool.write("a.ply", ply("", "0", ROWS))
     tool.fail("--columns 1,2,3 a.ply o.ply", INPUT, "--columns is for text")
