@@ -183,9 +183,12 @@ SequentialSearch::gatherBall (const std::vector<Index>& points, std::size_t firs
   if (!tree_.collect (centre_, radius, MOST_POINTS * k_, ball_))
     return last;
   radius_ = radius;
-  places_.resize (static_cast<Eigen::Index> (ball_.size ()), 3);
-  for (std::size_t i = 0; i < ball_.size (); ++i)
-    places_.row (static_cast<Eigen::Index> (i)) = positions_[ball_[i]].array ();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<double>& places = places_[static_cast<std::size_t> (axis)];
+    places.clear ();
+    for (const Index p : ball_)
+      places.push_back (positions_[p][axis]);
+  }
   return last;
 }
 
@@ -211,16 +214,20 @@ SequentialSearch::searchBall (const Vector3d& query, double reach)
     return false;
   const std::size_t count = ball_.size ();
   // The same sum as in the tree: the order of neighbours depends on the last bit.
-  sqr_distances_ = (places_.col (0) - query.x ()).square () +
-                   (places_.col (1) - query.y ()).square () +
-                   (places_.col (2) - query.z ()).square ();
+  sqr_distances_.resize (count);
+  const auto array = [count] (std::vector<double>& values) {
+    return Eigen::Map<Eigen::ArrayXd> (values.data (), static_cast<Eigen::Index> (count));
+  };
+  array (sqr_distances_) = (array (places_[0]) - query.x ()).square () +
+                           (array (places_[1]) - query.y ()).square () +
+                           (array (places_[2]) - query.z ()).square ();
   near_.resize (count + 1);
   // The last neighbour is mostly about as far as for the previous query.
   for (const double within : {std::min (reach, EXPECTED * last_reach_), reach}) {
     const double sqr_reach = within * within;
     std::size_t near = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      near_[near] = {sqr_distances_[static_cast<Eigen::Index> (i)], ball_[i]};
+      near_[near] = {sqr_distances_[i], ball_[i]};
       near += near_[near].sqr_distance <= sqr_reach ? 1 : 0;
     }
     if (near < k_)

@@ -233,10 +233,11 @@ private:
   double last_reach_ = KdTree::EVERYWHERE;
   Vector3d centre_ = Vector3d::Zero (); // of the ball
   double radius_ = -1.0;                // of the ball; negative: there is none
-  std::vector<Index> ball_;             // points in the ball
-  Eigen::ArrayX3d places_;              // their coordinates
-  Eigen::ArrayXd sqr_distances_;        // of these to the query
-  std::vector<Neighbor> near_;          // points within reach, unordered
+  std::vector<Index> ball_;             // points in the ball, and their coordinates: without memory
+                                        // to grow, an array of Eigen would be freed twice
+  std::array<std::vector<double>, 3> places_;
+  std::vector<double> sqr_distances_; // of these to the query
+  std::vector<Neighbor> near_;        // points within reach, unordered
 };
 
 } // namespace pcl::floater
