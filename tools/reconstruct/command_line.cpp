@@ -198,14 +198,17 @@ checkPaths (const CommandLine& line)
     if (path.filename ().string ().find_first_of ("\n\r") != std::string::npos)
       throw UsageError ("the name of the file of materials or of the texture has a line break in "
                         "it, which files in OBJ cannot hold; choose another one");
+  const auto refuse = [] (const std::string& one, const std::string& other, const auto& path) {
+    throw UsageError (one + " and " + other + " are the same file, '" + path.string () +
+                      "'; give different ones");
+  };
   for (std::size_t i = 2; i < all.size (); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const auto& [name, path] = all[i];
       const auto& [other_name, other] = all[j];
       if (!path.empty () && !other.empty () && !isStandardStream (path) &&
           !isStandardStream (other) && areSame (path, other))
-        throw UsageError (other_name + " and " + name + " are the same file, '" + path.string () +
-                          "'; give different ones");
+        refuse (other_name, name, path);
     }
   if (line.meshFormat () == nullptr && isStandardStream (line.output))
     throw UsageError ("OUTPUT is the standard output: give its format by --output-format, such as "
