@@ -41,7 +41,7 @@ public:
     for (const auto& [t, partners] : partners_)
       for (const Index u : partners)
         if (t < u)
-          pairs.push_back ({t, u});
+          pairs.emplace_back (t, u);
     std::sort (pairs.begin (), pairs.end ());
     return pairs;
   }

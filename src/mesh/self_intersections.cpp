@@ -182,7 +182,7 @@ findSelfIntersections (const std::vector<Triangle>& triangles, const Positions& 
             return;
           std::size_t exact_tests = 0;
           if (doCross (triangles[t], triangles[u], positions, &exact_tests))
-            found.of (first).push_back ({t, u});
+            found.of (first).emplace_back (t, u);
           work += TEST_WORK + exact_tests * EXACT_TEST_WORK;
         });
       if (work >= most)
