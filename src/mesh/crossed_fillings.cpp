@@ -43,7 +43,11 @@ struct Obstacles
   static constexpr std::size_t KEPT = 16;
 };
 
-constexpr auto isAny = [] (const Triangle&) { return true; };
+bool
+isAny (const Triangle& /*triangle*/)
+{
+  return true;
+}
 
 } // namespace
 

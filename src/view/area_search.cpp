@@ -68,7 +68,8 @@ startingPlaces (const std::vector<AreaSample>& samples, const Eigen::AlignedBox3
   // The middles of the cells of grids over twice the boxes.
   for (const Eigen::AlignedBox3d& one : {box, middle})
     for (std::size_t i = 0; i < CELLS * CELLS * CELLS; ++i) {
-      const Eigen::Array3d cell (i % CELLS, i / CELLS % CELLS, i / (CELLS * CELLS));
+      const std::size_t column = i / CELLS % CELLS, layer = i / (CELLS * CELLS);
+      const Eigen::Array3d cell (i % CELLS, column, layer);
       const Vector3d offset = (2.0 * (cell + 0.5) / static_cast<double> (CELLS) - 1.0).matrix ();
       places.push_back ({0.0, {one.center () + offset.cwiseProduct (one.sizes ()), false}});
     }
@@ -136,6 +137,7 @@ double
 spreadOfAreas (const std::vector<AreaSample>& samples)
 {
   std::vector<double> areas;
+  areas.reserve (samples.size ());
   for (const AreaSample& sample : samples)
     areas.push_back (sample.area);
   return quartileSpread (areas);

@@ -20,9 +20,9 @@ makeCheckerboard ()
       const double right = static_cast<double> (column) / (FIELDS - 1);
       const double up = static_cast<double> (line) / (FIELDS - 1);
       const double shade = 255.0 * ((x / PIXELS + y / PIXELS) % 2 != 0 ? 0.45 : 1.0);
-      image.pixels.push_back ({static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
-                               static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
-                               static_cast<std::uint8_t> (shade * (1.0 - 0.25 * (right + up)))});
+      image.pixels.emplace_back (static_cast<std::uint8_t> (shade * (0.35 + 0.65 * right)),
+                                 static_cast<std::uint8_t> (shade * (0.35 + 0.65 * up)),
+                                 static_cast<std::uint8_t> (shade * (1.0 - 0.25 * (right + up))));
     }
   return image;
 }
