@@ -98,8 +98,9 @@ struct CachedCost
                                 corners[1] * 0xC2B2AE3D27D4EB4FULL +
                                 corners[2] * 0x165667B19E3779F9ULL;
     Entry& entry = entries[mixed >> (64 - BITS)];
-    if (entry.corners != corners)
-      entry = {corners, plain (a, b, c)};
+    if (entry.corners[0] != corners[0] || entry.corners[1] != corners[1] ||
+        entry.corners[2] != corners[2]) // inline, unlike the comparison of arrays
+      entry = {corners, plain (corners[0], corners[1], corners[2])};
     return entry.value;
   }
 };

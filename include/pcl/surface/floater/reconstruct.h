@@ -54,8 +54,9 @@ struct Input
   /// and sign, used instead of fitted ones, but where they are zero or not finite.
   std::vector<Eigen::Vector3f> normals{};
 
-  /// As `normals`, which it may be, but towards the front of the surface: read for Facing::AUTO and
-  /// NORMALS. Ignored where zero or not finite.
+  /// Empty, or one for each point of the whole cloud: normals of any length towards the front of
+  /// the surface; read for Facing::AUTO and NORMALS. Ignored where zero or not finite. May be the
+  /// same as `normals`.
   std::vector<Eigen::Vector3f> facing_normals{};
 
   /// Was subtracted from all coordinates before: points that stand for no measurement, such as

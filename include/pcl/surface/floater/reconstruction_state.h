@@ -190,7 +190,8 @@ protected:
   /** \brief Checks a cloud before its points are read.
    * \param size number of its points
    * \param indices those that are to be reconstructed
-   * \return false, with a failure recorded, if it is too large, or an index or loop is outside */
+   * \return false, with the failure recorded, if the cloud is too large, or an index or the given
+   * boundary loop is outside of it */
   bool checkCloud (std::size_t size, const pcl::Indices& indices);
 
   /** \brief Reconstructs with the options. Records the report, and what each point is in the mesh.

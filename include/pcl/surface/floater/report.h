@@ -72,9 +72,10 @@ enum class FacingRule
   SHEET,   ///< both sides are equally visible: it faces up
   NORMALS, ///< most of the normals of the input point to the front
   UP,      ///< it faces up, as requested
-  BULGE,   ///< as SHEET, but it stands, or OUTWARDS was requested: the front is where it bulges
-  ROOM,    ///< floor, ceiling and walls with openings: it faces the people in it
-  COUNT    ///< the number of rules
+  BULGE, ///< both sides are equally visible; it stands, or OUTWARDS was requested: the front is the
+         ///< side to which it bulges
+  ROOM,  ///< floor, ceiling and walls with openings: it faces the people in it
+  COUNT  ///< the number of rules
 };
 
 /// Short name of a rule in lower case ("body").
@@ -298,7 +299,8 @@ struct Report
   std::vector<std::uint32_t> outliers;   ///< outliers, left out of the mesh; ascending
   std::vector<std::uint32_t> non_finite; ///< points with a NaN or infinite coordinate, and those
                                          ///< that stand for no measurement; ascending
-  std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, its equal in mesh), ascending
+  std::vector<std::array<std::uint32_t, 2>> duplicates; ///< (point, the equal point in the mesh),
+                                                        ///< ascending
   Statistics statistics;                                ///< counts, times and figures
 };
 

@@ -71,7 +71,8 @@ struct TextureCoordinates
 /// triangle is flipped. Charts are scaled by their areas and stretch, and packed.
 ///
 /// Does not throw: a failure is a status and a message. The result does not depend on the number of
-/// threads. Takes 5 microseconds per triangle (two cores), and 1 kB for those of the largest chart.
+/// threads. Takes about 5 microseconds per triangle with two cores, and 1 kB per triangle of the
+/// largest charts.
 /// \param positions of all points; points in no triangle get no coordinates
 /// \param triangles an oriented manifold, such as the result of a reconstruction; corners
 ///     anti-clockwise seen from the front
