@@ -88,17 +88,22 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
     finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     finish.pairs_found = finish.crossing->size ();
     const auto remake = [&] (int widest) {
-      if (!settings.remake_sheets || !finish.crossing->untested.empty ())
-        return;
-      remakeZones (mesh, positions, geometry, *finish.crossing, widest, finish.remade,
-                   settings.closes_gaps, run);
-      if (finish.remade.points () == 0)
-        return;
+      if (!settings.remake_sheets || !finish.crossing->untested.empty () ||
+          !remakeZones (mesh, positions, geometry, *finish.crossing, widest, finish.remade,
+                        settings.closes_gaps, run))
+        return false;
       std::size_t changes = addMissingPoints (mesh, positions, geometry.neighbors, run);
       if (settings.closes_gaps)
         changes += fillPinholes (mesh, positions, geometry.meshSpacing (), cost,
                                  finish.remade.is_remade, run);
       if (changes > 0)
+        finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
+      return true;
+    };
+    const auto cut = [&] {
+      const std::size_t cuts = cutNecks (mesh, positions, geometry, finish.remade.is_noisy, run);
+      finish.necks_cut += cuts;
+      if (cuts > 0)
         finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     };
     finish.remade.is_noise = settings.is_noise;
@@ -112,17 +117,15 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
     if (is_noise && givesUp ())
       return finish;
     if (!is_noise)
-      finish.necks_cut = cutNecks (mesh, positions, geometry, finish.remade.is_noisy, run);
-    if (finish.necks_cut > 0)
-      finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
+      cut ();
     if (finish.folds + finish.pairs_found + finish.remade.points () + finish.necks_cut > 0) {
       // With fewer flaws around, zones become smaller, and fewer of them touch. In noise no zone is
       // made anew: airborne scans keep 12 to 40 % fewer folds if none may come in for a crossing pair.
       const Repair first = is_noise ? Repair::AT_THE_END : Repair::BEFORE_REMAKING;
       if (repairMesh (mesh, positions, geometry, first, settings.limits, finish, run)
               .hasChanged () &&
-          !is_noise)
-        remake (WIDEST_AGAIN);
+          !is_noise && remake (WIDEST_AGAIN))
+        cut ();
       if (!settings.are_points_added)
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
       if (!is_noise && givesUp ())

@@ -9,7 +9,7 @@
 namespace pcl::floater {
 /// Cuts along short loops around necks (see findNeckLoops): takes out the triangles at the points of
 /// a loop, on one side of it or on both, fills the two openings, and adds points that have no
-/// triangle left. The cheapest of these cuts is made if the mesh around is bent clearly less then; of
+/// triangle left. The cheapest of these cuts is made if what it changes is bent less then; of
 /// cuts that overlap, the one that leaves the least share. A neck between sheets that only come close
 /// bends twice by a right angle; across a true one, the fillings would. A cut takes a handle away, or
 /// parts a component in two. O(n), plus about a millisecond for a loop.
@@ -19,16 +19,6 @@ namespace pcl::floater {
 std::size_t
 cutNecks (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
           Flags is_skipped, const RunContext& run);
-
-/// Tries the cuts of all necks one by one, the cheapest first, whatever they cost. Each one that is taken
-/// stays; those that overlap it are not tried.
-/// \param most number of cuts that are taken
-/// \param take whether the mesh with these triangles is taken
-/// \return whether any is
-bool
-cutNecksIfTaken (const TriangleMesh& mesh, const Positions& positions,
-                 const LocalGeometry& geometry, const Flags& is_skipped, std::size_t most,
-                 const RunContext& run, const std::function<bool (std::vector<Triangle>)>& take);
 
 /// Loops of at most `longest` edges around a neck with bent edges: a bridge between two parts of a
 /// mesh, or a tunnel through a wall. Around each point of an edge that is bent by more than 60

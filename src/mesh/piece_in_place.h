@@ -43,7 +43,6 @@ public:
   }
 
   bool isManifold () const { return is_manifold_; }
-  const TriangleMesh& mesh () const { return mesh_; }
 
   /// Points inside that have triangles, but not a single fan, closed but at boundaries that stay.
   std::vector<Index> misfits (const RunContext& run) const
@@ -67,30 +66,6 @@ public:
       }
     }
     return found;
-  }
-
-  /// By Euler's formula, with a point of its own for each fan of a point: open fans are as many as
-  /// boundary edges.
-  long twiceHandles (const RunContext& run) const
-  {
-    const std::vector<MeshEdge> border = boundaryEdges (mesh_);
-    const Flags is_open = boundaryPoints (mesh_);
-    Flags is_met (3 * mesh_.triangles.size (), 0);
-    long loops = 0;
-    for (MeshEdge e : border) {
-      loops += is_met[std::size_t{3} * e.triangle + e.side] == 0 ? 1 : 0;
-      while (is_met[std::size_t{3} * e.triangle + e.side]++ == 0)
-        // To the next boundary edge, through the fan around the end of this one.
-        for (MeshEdge m = e; m.triangle != NONE; m = mesh_.mate (e))
-          e = {m.triangle, TriangleMesh::next (m.side)};
-    }
-    long closed = 0; // points
-    for (std::size_t p = 0; p < is_open.size (); ++p)
-      closed += mesh_.triangle_of[p] != NONE && is_open[p] == 0 ? 1 : 0;
-    const auto triangles = static_cast<long> (mesh_.triangles.size ()),
-               open = static_cast<long> (border.size ()),
-               pieces = static_cast<long> (findComponents (mesh_, run).count);
-    return 2 * pieces - loops - closed + (triangles - open) / 2;
   }
 
   /// Triangles that cross, folds, open edges that are not of a boundary that stays, and points inside

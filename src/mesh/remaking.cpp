@@ -3,13 +3,9 @@
 #include "mesh/remaking.h"
 
 #include "core/disjoint_sets.h"
-#include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "mesh/neck_cutting.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
-
-#include <set>
 
 namespace pcl::floater {
 namespace {
@@ -60,19 +56,12 @@ struct ZoneRemaker
       if (!made.is_right || hasLid (made, at.points))
         return std::nullopt;
       dropIslands (at.place, made);
-      std::optional<PieceInPlace> after (std::in_place, at.place, made.triangles, made.is_turned,
-                                         run);
-      const std::vector<Index> misfits = after->misfits (run);
+      const PieceInPlace after (at.place, made.triangles, made.is_turned, run);
+      const std::vector<Index> misfits = after.misfits (run);
       if (misfits.empty ()) {
         const PieceInPlace before (at.place, at.old, {}, run);
-        const long handles = before.twiceHandles (run);
-        while (after->isManifold () && after->twiceHandles (run) > handles) {
-          if (!cutHandles (at, *after, handles, made))
-            return std::nullopt;
-          after.emplace (at.place, made.triangles, made.is_turned, run);
-        }
-        if (!after->isManifold () || static_cast<double> (after->faults (run)) >
-                                         FAULTS_LEFT * static_cast<double> (before.faults (run)))
+        if (!after.isManifold () || static_cast<double> (after.faults (run)) >
+                                        FAULTS_LEFT * static_cast<double> (before.faults (run)))
           return std::nullopt;
         return newZone (std::move (free), at, made);
       }
@@ -105,51 +94,6 @@ struct ZoneRemaker
         break;
     }
     return TRIED_SHARE * flawed > tried;
-  }
-
-  // The geometry of a place, as far as the search for necks needs it.
-  LocalGeometry geometryOf (const PlaceOfMesh& at, const TriangleMesh& piece) const
-  {
-    LocalGeometry local;
-    local.neighbors = rowsWithin (geometry.neighbors, at.points);
-    local.spacing = valuesAt (geometry.meshSpacing (), at.points);
-    local.stars.normals.assign (at.points.size (), Vector3f::Zero ());
-    for (const Triangle& t : piece.triangles)
-      for (const Index p : t)
-        local.stars.normals[p] += areaVectorOf (t, at.place.positions).cast<float> ();
-    return local;
-  }
-
-  // Cuts handles along the cheapest loops of free points that do not overlap.
-  // \param twice_left twice the number of handles that may stay
-  // \return whether there is one
-  bool cutHandles (const PlaceOfMesh& at, const PieceInPlace& piece, long twice_left,
-                   RemadePlace& made) const
-  {
-    const Place& place = at.place;
-    std::multiset<Triangle> frame;
-    for (std::size_t i = 0; i < place.frame.size (); ++i)
-      frame.insert (turnedIf (made.is_turned[place.patch_of[i]] != 0, place.frame[i]));
-    Flags is_fixed;
-    for (const std::uint8_t is_free : place.is_free)
-      is_fixed.push_back (is_free == 0 ? 1 : 0);
-    long twice = piece.twiceHandles (run);
-    const auto take = [&] (std::vector<Triangle> triangles) {
-      const std::size_t all = triangles.size ();
-      triangles.erase (std::remove_if (triangles.begin (), triangles.end (),
-                                       [&] (const Triangle& t) { return frame.count (t) > 0; }),
-                       triangles.end ());
-      const PieceInPlace after (place, triangles, made.is_turned, run);
-      if (triangles.size () + frame.size () != all || !after.isManifold () ||
-          after.twiceHandles (run) >= twice || !after.misfits (run).empty ())
-        return false;
-      twice = after.twiceHandles (run);
-      made.triangles = std::move (triangles);
-      return true;
-    };
-    const auto most = static_cast<std::size_t> (twice - twice_left + 1) / 2; // each is two fewer
-    return cutNecksIfTaken (piece.mesh (), place.positions, geometryOf (at, piece.mesh ()),
-                            is_fixed, most, run, take);
   }
 
   static NewZone newZone (std::vector<Index> free, const PlaceOfMesh& at, const RemadePlace& made)
@@ -221,13 +165,14 @@ struct ZoneRemaker
 
 } // namespace
 
-void
+bool
 remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
              CrossingPairs& crossing, int widest, RemadeZones& remade, bool closes_gaps,
              const RunContext& run)
 {
   // At first with whole loops, and again as wide if parts of them would do.
   int rings = widest;
+  bool has_changed = false;
   for (bool whole_loops = true; rings > 0;) {
     const DisturbedZones zones = findDisturbedZones (mesh, positions, geometry, crossing, rings,
                                                      whole_loops, closes_gaps, run);
@@ -237,7 +182,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     Flags is_noise (made.size (), 0);
     if (made.empty ())
-      return;
+      break;
     const ZoneRemaker remaker{mesh, positions, geometry, zones, run.withThreads (1)};
     remade.is_noisy.resize (positions.size (), 0);
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
@@ -254,7 +199,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
     }
     remade.is_noise = 4 * noisy_points > positions.size ();
     if (remade.is_noise)
-      return; // narrower zones would be noise as well
+      break; // narrower zones would be noise as well
     if (std::count (made.begin (), made.end (), std::nullopt) ==
             static_cast<std::ptrdiff_t> (made.size ()) ||
         !spliced.connect (positions.size (), run))
@@ -266,7 +211,9 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
           remade.is_remade[p] = 1;
     mesh = std::move (spliced);
     crossing = findSelfIntersections (mesh.triangles, positions, run);
+    has_changed = true;
   }
+  return has_changed;
 }
 
 } // namespace pcl::floater

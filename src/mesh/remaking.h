@@ -22,17 +22,18 @@ struct RemadeZones
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that
 /// came out wrong again, narrower by a ring each time. At first, loops that are gaps in part are
 /// gaps all along. A zone grows by points at which its new triangles do not fit to those around. It
-/// stays as it was if its new triangles fit nowhere, have a handle more that no loop cuts (the
-/// cheapest ones that do are cut, whatever they cost: see cutNecksIfTaken), a lid on an opening, or not
-/// clearly fewer faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each
-/// other; also if it is large and some places in it are noise (see isNoise). Components may come out
+/// stays as it was if its new triangles fit nowhere, have a lid on an opening, or not clearly fewer
+/// faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it
+/// is large and some places in it are noise (see isNoise). It may have more handles than before: true
+/// ones, such as holes through a plate, are often missing there, and cutNecks () cuts false ones. Components may come out
 /// with either side as the front. Points of new components by themselves are left without a triangle.
 /// O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param widest    rings around what is disturbed, at first
 /// \param[in,out] remade adds what was done to what was done before
 /// \param closes_gaps see findDisturbedZones ()
-void
+/// \return whether any zone was made anew
+bool
 remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry& geometry,
              CrossingPairs& crossing, int widest, RemadeZones& remade, bool closes_gaps,
              const RunContext& run);

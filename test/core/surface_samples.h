@@ -315,6 +315,19 @@ prism (const std::vector<Outline>& outlines, double height, std::uint64_t seed,
   return made;
 }
 
+/// A plate with four holes through it, which leave bars of a width between them and around. A corner of
+/// a hole may be filled by a tetrahedron, which folds an edge by 125 degrees.
+inline KnownSurface
+frame (double bar, double window, double height, std::uint64_t seed)
+{
+  const double pitch = window + bar;
+  std::vector<Outline> outlines{rectangle (2.0 * pitch + bar, 2.0 * pitch + bar)};
+  for (const double x : {bar, bar + pitch})
+    for (const double y : {bar, bar + pitch})
+      outlines.push_back (rectangle (window, window, {x, y}));
+  return sharp (prism (outlines, height, seed), 3.2);
+}
+
 // ---- additions and flaws
 
 /// Adds another surface, scaled and moved.

@@ -261,6 +261,11 @@ cases ()
   for (const double height : {0.9, 1.5, 2.2})
     add ("plate_" + std::to_string (static_cast<int> (10.0 * height)),
          [=] { return prism ({rectangle (26.0, 18.0)}, height, 6); });
+  // Handles that the mesh does not have before zones are made anew.
+  for (const double bar : {2.0, 3.0, 4.0})
+    for (const double height : {2.0, 4.0})
+      add ("frame_" + std::to_string (static_cast<int> (10.0 * bar + height)),
+           [=] { return frame (bar, 7.0, height, 1); });
   for (const double slope : {0.15, 0.3, 0.6})
     add ("roof_" + std::to_string (static_cast<int> (100.0 * slope)), [=] {
       return sharp (prism ({{{0, 0}, {30, 0}, {15, 30.0 * slope}}}, 20.0, 7), 40.0); // its eaves
