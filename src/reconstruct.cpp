@@ -7,6 +7,7 @@
 
 #include "input/input.h"
 #include "local/no_surface.h"
+#include "mesh/two_sides.h"
 #include "methods.h"
 #include "options/check_options.h"
 #include "points/outliers.h"
@@ -257,6 +258,8 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   std::vector<Index> scatter;
   if (options.denoise || drops_scatter)
     scatter = findScatter (geometry, noise, is_certain, run);
+  if (is_certain && areOnTwoSides (valuesAt (points.positions, scatter), run))
+    scatter.clear (); // thin fins, several of them in a neighbourhood
   if (drops_scatter)
     scatter = exceptLoop (std::move (scatter), points, options);
   // Errors along rays look like noise and scatter; of what is open, the sensor tells the front.

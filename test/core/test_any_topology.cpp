@@ -261,6 +261,12 @@ cases ()
   for (const double height : {0.9, 1.5, 2.2})
     add ("plate_" + std::to_string (static_cast<int> (10.0 * height)),
          [=] { return prism ({rectangle (26.0, 18.0)}, height, 6); });
+  // Thin walls of which several are in a neighbourhood are no scatter.
+  add ("channel", [] {
+    return prism (
+        {{{0, 0}, {5.7, 0}, {5.7, 10}, {4.5, 10}, {4.5, 1.2}, {1.2, 1.2}, {1.2, 10}, {0, 10}}},
+        20.0, 3);
+  });
   // Handles that the mesh does not have before zones are made anew.
   for (const double bar : {2.0, 3.0, 4.0})
     for (const double height : {2.0, 4.0})
