@@ -37,8 +37,17 @@ struct ZoneRemaker
   const LocalGeometry& geometry;
   const DisturbedZones& zones;
   RunContext run;
+  MeshComponents components = findComponents (mesh, run);
+  std::vector<std::size_t> sizes = countPoints (mesh, components);
 
-  // A zone grows by the points at which its new triangles do not fit to the others.
+  struct Remade
+  {
+    NewZone zone;
+    std::size_t faults;
+  };
+
+  // A zone that is left with faults and is most of its components is tried once more with all of them:
+  // what is around may be wrong.
   // \param is_noise out: whether the zone is noise
   // \return nothing if the zone is to stay as it was
   std::optional<NewZone> remake (Row zone, std::uint8_t& is_noise) const
@@ -46,13 +55,43 @@ struct ZoneRemaker
     is_noise = 1;
     if (looksNoisy (zone))
       return std::nullopt;
-    std::vector<Index> free (zone.begin (), zone.end ());
+    std::optional<Remade> made = remakeFree ({zone.begin (), zone.end ()}, &is_noise);
+    if (made && made->faults > 0)
+      if (std::vector<Index> all = withComponents (zone); !all.empty ())
+        if (std::optional<Remade> whole = remakeFree (std::move (all));
+            whole && whole->faults < made->faults)
+          made = std::move (whole);
+    return made ? std::optional (std::move (made->zone)) : std::nullopt;
+  }
+
+  // A zone with all of the components that are near it, if these have at most twice as many points; else
+  // none.
+  std::vector<Index> withComponents (Row zone) const
+  {
+    std::vector<Index> points;
+    Flags is_near (components.count, 0);
+    std::size_t size = 0;
+    for (const Index p : zone)
+      for (const Index q : geometry.neighbors.row (p))
+        if (const Index t = mesh.triangle_of[q]; t != NONE)
+          if (const Index its = components.of_triangle[t]; std::exchange (is_near[its], 1) == 0)
+            size += sizes[its];
+    for (Index p = 0; p < positions.size () && size <= 2 * zone.size (); ++p)
+      if (const Index t = mesh.triangle_of[p];
+          zones.is_boundary[p] == 0 && (t == NONE || is_near[components.of_triangle[t]] != 0))
+        points.push_back (p);
+    return points;
+  }
+
+  // Points grow by those at which their new triangles do not fit to the others.
+  std::optional<Remade> remakeFree (std::vector<Index> free, std::uint8_t* is_noise = nullptr) const
+  {
     for (int growths = 0; growths <= MOST_GROWTHS; ++growths) {
       const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh, positions,
                                       geometry.neighbors, zones);
       RemadePlace made = remakePlace (at.place, run);
-      if (growths == 0)
-        is_noise = isNoise (made.flawed, zone.size ()) ? 1 : 0;
+      if (growths == 0 && is_noise != nullptr)
+        *is_noise = isNoise (made.flawed, free.size ()) ? 1 : 0;
       if (!made.is_right || hasLid (made, at.points))
         return std::nullopt;
       dropIslands (at.place, made);
@@ -60,10 +99,11 @@ struct ZoneRemaker
       const std::vector<Index> misfits = after.misfits (run);
       if (misfits.empty ()) {
         const PieceInPlace before (at.place, at.old, {}, run);
-        if (!after.isManifold () || static_cast<double> (after.faults (run)) >
-                                        FAULTS_LEFT * static_cast<double> (before.faults (run)))
+        const std::size_t faults = after.faults (run);
+        if (!after.isManifold () ||
+            static_cast<double> (faults) > FAULTS_LEFT * static_cast<double> (before.faults (run)))
           return std::nullopt;
-        return newZone (std::move (free), at, made);
+        return Remade{newZone (std::move (free), at, made), faults};
       }
       const std::size_t size = free.size ();
       for (const Index p : misfits)

@@ -23,11 +23,13 @@ struct RemadeZones
 /// came out wrong again, narrower by a ring each time. At first, loops that are gaps in part are
 /// gaps all along. A zone grows by points at which its new triangles do not fit to those around. It
 /// stays as it was if its new triangles fit nowhere, have a lid on an opening, or not clearly fewer
-/// faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if it
-/// is large and some places in it are noise (see isNoise). It may have more handles than before: true
-/// ones, such as holes through a plate, are often missing there, and cutNecks () cuts false ones. Components may come out
-/// with either side as the front. Points of new components by themselves are left without a triangle.
-/// O(n), plus some 60 microseconds for a point of a zone; zones on all threads.
+/// faults (see PieceInPlace), or if the sides of pieces of the mesh contradict each other; also if
+/// it is large and some places in it are noise (see isNoise). One that is left with faults and is
+/// most of its components is tried once more with all of them: what is around may be wrong, too.
+/// A zone may have more handles than before: true ones, such as holes through a plate, are often
+/// missing there, and cutNecks () cuts false ones. Components may come out with either side as the
+/// front. Points of new components by themselves are left without a triangle. O(n), plus some 60
+/// microseconds for a point of a zone; zones on all threads.
 /// \param[in,out] crossing all crossing pairs of the mesh
 /// \param widest    rings around what is disturbed, at first
 /// \param[in,out] remade adds what was done to what was done before

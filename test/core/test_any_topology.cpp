@@ -267,6 +267,16 @@ cases ()
         {{{0, 0}, {5.7, 0}, {5.7, 10}, {4.5, 10}, {4.5, 1.2}, {1.2, 1.2}, {1.2, 10}, {0, 10}}},
         20.0, 3);
   });
+  // Around the zone that is made anew, the mesh is wrong.
+  add ("fins", [] {
+    Outline outline{{0.0, 0.0}, {12.7, 0.0}, {12.7, 8.4}, {11.1, 8.4}, {11.1, 3.4}};
+    for (const double x : {7.4, 3.7})
+      for (const Eigen::Vector2d& p : Outline{{x + 1.6, 3.4}, {x + 1.6, 8.4}, {x, 8.4}, {x, 3.4}})
+        outline.push_back (p);
+    for (const Eigen::Vector2d& p : Outline{{1.6, 3.4}, {1.6, 8.4}, {0.0, 8.4}})
+      outline.push_back (p);
+    return sharp (prism ({outline}, 12.0, 1), 3.2);
+  });
   // Handles that the mesh does not have before zones are made anew.
   for (const double bar : {2.0, 3.0, 4.0})
     for (const double height : {2.0, 4.0})
