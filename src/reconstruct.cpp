@@ -5,6 +5,7 @@
 // is known is connected as its sensor saw it, without neighbours.
 #include "reconstruct.h"
 
+#include "core/order_statistics.h"
 #include "input/input.h"
 #include "local/no_surface.h"
 #include "mesh/two_sides.h"
