@@ -5,7 +5,6 @@
 // is known is connected as its sensor saw it, without neighbours.
 #include "reconstruct.h"
 
-#include "core/order_statistics.h"
 #include "input/input.h"
 #include "local/no_surface.h"
 #include "mesh/two_sides.h"
@@ -259,7 +258,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   std::vector<Index> scatter;
   if (options.denoise || drops_scatter)
     scatter = findScatter (geometry, noise, is_certain, run);
-  if (is_certain && areOnTwoSides (valuesAt (points.positions, scatter), run))
+  if (is_certain && areOnTwoSides (points.positions, scatter, run))
     scatter.clear (); // thin fins, several of them in a neighbourhood
   if (drops_scatter)
     scatter = exceptLoop (std::move (scatter), points, options);

@@ -311,7 +311,7 @@ remakePlace (const Place& place, const RunContext& run, bool only_counts)
 }
 
 bool
-areOnTwoSides (const Positions& points, const RunContext& run)
+areOnTwoSides (const Positions& positions, const std::vector<Index>& points, const RunContext& run)
 {
   // One in so many points may be flawed. Clean bodies with thin walls and fins had one in 66 or fewer;
   // points strewn into volumes, lattices, leaves and branches one in 19 or more.
@@ -321,9 +321,9 @@ areOnTwoSides (const Positions& points, const RunContext& run)
   std::vector<std::size_t> flawed (parts);
   parallelTasks (run, parts, [&] (std::size_t part) {
     Place place;
-    const auto first = points.begin () +
-                       static_cast<std::ptrdiff_t> (part * (points.size () - size) / (PARTS - 1));
-    place.positions.assign (first, first + static_cast<std::ptrdiff_t> (size));
+    const std::size_t first = part * (points.size () - size) / (PARTS - 1);
+    for (std::size_t i = first; i < first + size; ++i)
+      place.positions.push_back (positions[points[i]]);
     place.is_free.assign (size, 1);
     place.is_rim.assign (size, 0);
     place.is_boundary = place.is_rim;

@@ -59,8 +59,8 @@ remakePlace (const Place& place, const RunContext& run, bool only_counts = false
 
 /// Whether points are on a surface, however near its sheets are to each other: at hardly any of them the
 /// balls tell no two sides. Four parts of at most 2,048 points are looked at, each in some 0.1 seconds.
-/// \param points those that are near in number are near in space
+/// \param points of `positions`; those that are near in this order are near in space
 bool
-areOnTwoSides (const Positions& points, const RunContext& run);
+areOnTwoSides (const Positions& positions, const std::vector<Index>& points, const RunContext& run);
 
 } // namespace pcl::floater
