@@ -24,10 +24,10 @@ constexpr double SAME_SHEET = 0.87;
 // had up to 0.15, gaps at edges of bodies 0.6 and more.
 constexpr double GAP_SHARE = 1.0 / 3.0;
 
-// Points of a loop in a row that are no gap and separate two. Along folds of sheets up to 12 in a row were
-// not touching, on their true boundary 48 and more. On one sheet, pieces of a loop are as far apart along
-// it, times their distance.
-constexpr std::size_t LONG_RUN = 32;
+// Points of a loop in a row that are no gap and separate two, for long and short parts. Along folds of
+// sheets up to 12 in a row were not touching, on true boundaries of wide sheets 48 and more. On one sheet,
+// pieces of a loop are as far apart along it, times their distance.
+constexpr std::size_t LONG_RUN = 32, SHORT_RUN = 4;
 
 struct ZoneFinder
 {
@@ -41,7 +41,8 @@ struct ZoneFinder
   const TriangleMesh& mesh;
   const Positions& positions;
   const LocalGeometry& geometry;
-  bool whole_loops, closes_gaps;
+  GapParts gaps;
+  bool closes_gaps;
   const RunContext& run;
   std::vector<std::vector<Index>> loops = {};
   std::vector<double> lengths = {}; // of the loops
@@ -67,8 +68,10 @@ struct ZoneFinder
     markDisturbed ();
     markGaps ();
     for (const std::vector<Index>& loop : loops)
-      for (const Index p : loop)
+      for (const Index p : loop) {
+        zones.was_boundary[p] = 1;
         zones.is_boundary[p] = is_disturbed[p] == 0 ? 1 : 0;
+      }
     for (Index p = 0; p < positions.size (); ++p)
       if (is_disturbed[p] != 0)
         makeFree (p);
@@ -145,7 +148,7 @@ struct ZoneFinder
     if (static_cast<double> (beside.size ()) >= GAP_SHARE * static_cast<double> (loop.size ())) {
       const bool all_along = stretches (loop, beside).size () == loop.size ();
       zones.may_be_parts = zones.may_be_parts || !all_along;
-      if (all_along || whole_loops)
+      if (all_along || gaps == GapParts::WHOLE_LOOP)
         return loop;
     }
     return stretches (loop, besideSheet (loop, TOUCHING));
@@ -159,16 +162,16 @@ struct ZoneFinder
     });
   }
 
-  // Stretches of a loop with more than SMALL_LOOP of these places, with gaps of no more than
-  // LONG_RUN between them.
+  // Stretches of a loop with more than SMALL_LOOP of these places, and no more than a run between them.
   std::vector<Index> stretches (const std::vector<Index>& loop,
                                 const std::vector<Index>& places) const
   {
-    const std::size_t n = places.size ();
+    const std::size_t n = places.size (),
+                      longest = gaps == GapParts::SHORT_PARTS ? SHORT_RUN : LONG_RUN;
     const auto way = [&] (std::size_t from, std::size_t to) {
       return (places[to % n] + loop.size () - places[from % n]) % loop.size ();
     };
-    const auto isLast = [&] (std::size_t i) { return way (i, i + 1) > LONG_RUN; };
+    const auto isLast = [&] (std::size_t i) { return way (i, i + 1) > longest; };
     if (n <= SMALL_LOOP)
       return {};
     std::size_t start = 0;
@@ -232,7 +235,7 @@ struct ZoneFinder
         for (const Index p : mesh.triangles[t])
           is_disturbed[p] = 1;
     zones.is_free.assign (positions.size (), 0);
-    zones.is_boundary.assign (positions.size (), 0);
+    zones.is_boundary = zones.was_boundary = zones.is_free;
   }
 
   bool isFree (Index p) const { return zones.is_free[p] != 0; }
@@ -289,10 +292,9 @@ struct ZoneFinder
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
                     const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
-                    int rings, bool whole_loops, bool closes_gaps, const RunContext& run)
+                    int rings, GapParts gaps, bool closes_gaps, const RunContext& run)
 {
-  return ZoneFinder{mesh, positions, geometry, whole_loops, closes_gaps, run}.find (crossing,
-                                                                                    rings);
+  return ZoneFinder{mesh, positions, geometry, gaps, closes_gaps, run}.find (crossing, rings);
 }
 
 } // namespace pcl::floater

@@ -11,6 +11,14 @@ namespace pcl::floater {
 /// Points; a loop of no more is no opening.
 constexpr std::size_t SMALL_LOOP = 5;
 
+/// How much of a boundary loop is a gap that is closed, where only parts of it are beside another sheet.
+enum class GapParts : std::uint8_t
+{
+  WHOLE_LOOP,  ///< all of it, if a third is
+  LONG_PARTS,  ///< parts with long runs of boundary between them
+  SHORT_PARTS, ///< parts with any boundary between them
+};
+
 /// Free points, whose triangles are to be made anew.
 struct DisturbedZones
 {
@@ -19,6 +27,7 @@ struct DisturbedZones
   Flags is_free;             ///< of each point; empty if there is no zone
   bool may_be_parts = false; ///< some loops look like gaps only in part
   Flags is_boundary;         ///< of each point: on a boundary that stays; not free
+  Flags was_boundary;        ///< of each point: on any boundary
 };
 
 /// Finds what is wrong: triangles that cross, points without a triangle, and boundary loops that
@@ -27,11 +36,11 @@ struct DisturbedZones
 /// O(n).
 /// \param crossing  all crossing pairs of the mesh
 /// \param rings     width of a zone around what is disturbed
-/// \param whole_loops whether a loop that is a gap in part counts as one all along
+/// \param gaps      what of a loop is a gap
 /// \param closes_gaps false: no boundary loop counts as a gap
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
                     const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
-                    int rings, bool whole_loops, bool closes_gaps, const RunContext& run);
+                    int rings, GapParts gaps, bool closes_gaps, const RunContext& run);
 
 } // namespace pcl::floater

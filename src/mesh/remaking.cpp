@@ -7,6 +7,9 @@
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
 
+#include <atomic>
+#include <map>
+
 namespace pcl::floater {
 namespace {
 // A zone of at least so many points is tried in some places first: it is noise if one in
@@ -18,9 +21,11 @@ namespace {
 constexpr std::size_t LARGE_ZONE = 2048, TRIED_PLACES = 16, TRIED_AT_ONCE = 4, TRIED_POINTS = 256,
                       TRIED_SHARE = 30, SURELY_NOISE = 24, SURELY_NONE = 48;
 
-// In mean edges around its ends before, or spacings if these are larger; a longer edge is a lid on an
-// opening. Of 120 generated folded sheets, 8 had lids between 7 and 8, and none shorter ones.
-constexpr double LONGEST_EDGE = 6.5;
+// Points that are missing where the surface would be, from which on it is a lid on an opening: in the
+// circle on an edge, or in triangles that hang together, each with a circle of more than the radius
+// LARGE. Lengths are in mean edges around before, or spacings if these are larger. Closed bodies had up
+// to 24, lids on folded sheets 45 or more, and edges longer than 6.5.
+constexpr double MISSING_POINTS = 33.0, LARGE = 2.0;
 
 // Share of the faults of a zone that may be left. A slit along a true fold has two open edges for each
 // folded one that closes it.
@@ -36,6 +41,7 @@ struct ZoneRemaker
   const Positions& positions;
   const LocalGeometry& geometry;
   const DisturbedZones& zones;
+  bool opens_webs;
   RunContext run;
   MeshComponents components = findComponents (mesh, run);
   std::vector<std::size_t> sizes = countPoints (mesh, components);
@@ -87,17 +93,23 @@ struct ZoneRemaker
   std::optional<Remade> remakeFree (std::vector<Index> free, std::uint8_t* is_noise = nullptr) const
   {
     for (int growths = 0; growths <= MOST_GROWTHS; ++growths) {
-      const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh, positions,
-                                      geometry.neighbors, zones);
+      PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh, positions,
+                                geometry.neighbors, zones);
       RemadePlace made = remakePlace (at.place, run);
       if (growths == 0 && is_noise != nullptr)
         *is_noise = isNoise (made.flawed, free.size ()) ? 1 : 0;
-      if (!made.is_right || hasLid (made, at.points))
+      if (!made.is_right || hasLid (made, at))
         return std::nullopt;
       dropIslands (at.place, made);
-      const PieceInPlace after (at.place, made.triangles, made.is_turned, run);
-      const std::vector<Index> misfits = after.misfits (run);
+      std::vector<Index> misfits;
+      Flags webs;
+      do {
+        removeWebs (at.place, made, webs);
+        misfits = PieceInPlace (at.place, made.triangles, made.is_turned, run)
+                      .misfits (run, opens_webs ? &webs : nullptr);
+      } while (std::find (webs.begin (), webs.end (), 1) != webs.end ());
       if (misfits.empty ()) {
+        const PieceInPlace after (at.place, made.triangles, made.is_turned, run);
         const PieceInPlace before (at.place, at.old, {}, run);
         const std::size_t faults = after.faults (run);
         if (!after.isManifold () ||
@@ -189,17 +201,50 @@ struct ZoneRemaker
     return std::max (static_cast<double> (geometry.meshSpacing ()[p]), sum / count);
   }
 
-  bool hasLid (const RemadePlace& made, const std::vector<Index>& points) const
+  // Webs in the corner where a gap ends between two true boundaries: their free corners are on a
+  // boundary again.
+  static void removeWebs (Place& place, RemadePlace& made, const Flags& webs)
   {
-    return std::any_of (made.triangles.begin (), made.triangles.end (), [&] (const Triangle& t) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < webs.size (); ++t)
+      if (webs[t] == 0)
+        made.triangles[kept++] = made.triangles[t];
+      else
+        for (const Index p : made.triangles[t])
+          place.is_boundary[p] = 1;
+    if (!webs.empty ())
+      made.triangles.resize (kept);
+  }
+
+  bool hasLid (const RemadePlace& made, const PlaceOfMesh& at) const
+  {
+    const Positions& place = at.place.positions;
+    std::map<std::pair<Index, Index>, Index> triangle_at; // each edge of large triangles
+    DisjointSets lids (made.triangles.size ());
+    std::vector<double> missing (made.triangles.size (), 0.0);
+    for (Index t = 0; t < missing.size (); ++t) {
+      const Triangle& c = made.triangles[t];
+      const std::array usual{usualEdge (at.points[c[0]]), usualEdge (at.points[c[1]]),
+                             usualEdge (at.points[c[2]])};
       for (std::size_t k = 0; k < 3; ++k) {
-        const Index p = points[t[k]], q = points[t[(k + 1) % 3]];
-        if ((positions[p] - positions[q]).norm () >
-            LONGEST_EDGE * std::max (usualEdge (p), usualEdge (q)))
+        const double radius = (place[c[k]] - place[c[(k + 1) % 3]]).norm () /
+                              (2.0 * std::max (usual[k], usual[(k + 1) % 3]));
+        if (PI * radius * radius > MISSING_POINTS)
           return true;
       }
-      return false;
-    });
+      const double most = *std::max_element (usual.begin (), usual.end ());
+      if (circumradius (place[c[0]], place[c[1]], place[c[2]]) < LARGE * most)
+        continue;
+      missing[t] = areaVectorOf (c, place).norm () / (2.0 * most * most);
+      for (std::size_t k = 0; k < 3; ++k)
+        lids.join (t,
+                   triangle_at.try_emplace (std::minmax (c[k], c[(k + 1) % 3]), t).first->second);
+    }
+    for (Index t = 0; t < missing.size (); ++t)
+      if (const Index lid = lids.find (t); lid != t)
+        missing[lid] += missing[t];
+    return std::any_of (missing.begin (), missing.end (),
+                        [] (double points) { return points > MISSING_POINTS; });
   }
 };
 
@@ -210,24 +255,40 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
              CrossingPairs& crossing, int widest, RemadeZones& remade, bool closes_gaps,
              const RunContext& run)
 {
-  // At first with whole loops, and again as wide if parts of them would do.
+  // At first with whole loops; and again as wide with parts of them if these would do, and with short ones
+  // if a zone with a boundary is left. Then narrower, with short ones only if such a zone is most of its
+  // components: narrow sheets, whose sides contradict each other while the ends are open, which looks like
+  // noise as well.
   int rings = widest;
   bool has_changed = false;
-  for (bool whole_loops = true; rings > 0;) {
-    const DisturbedZones zones = findDisturbedZones (mesh, positions, geometry, crossing, rings,
-                                                     whole_loops, closes_gaps, run);
-    if (!whole_loops || !zones.may_be_parts)
-      --rings;
-    whole_loops = false;
+  for (GapParts gaps = GapParts::WHOLE_LOOP; rings > 0;) {
+    const bool is_short = gaps == GapParts::SHORT_PARTS;
+    const DisturbedZones zones =
+        findDisturbedZones (mesh, positions, geometry, crossing, rings, gaps, closes_gaps, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     Flags is_noise (made.size (), 0);
     if (made.empty ())
       break;
-    const ZoneRemaker remaker{mesh, positions, geometry, zones, run.withThreads (1)};
     remade.is_noisy.resize (positions.size (), 0);
+    const ZoneRemaker remaker{mesh, positions, geometry, zones, is_short, run.withThreads (1)};
+    std::atomic<bool> is_left{false};
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
-      made[zone] = remaker.remake (zones.points.row (zone), is_noise[zone]);
+      const Row points = zones.points.row (zone);
+      made[zone] = remaker.remake (points, is_noise[zone]);
+      if (!made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_ZONE) &&
+          (rings == widest || !remaker.withComponents (points).empty ()) &&
+          std::any_of (points.begin (), points.end (),
+                       [&] (Index p) { return zones.was_boundary[p] != 0; }))
+        is_left = true;
     });
+    if (gaps == GapParts::WHOLE_LOOP && zones.may_be_parts)
+      gaps = GapParts::LONG_PARTS;
+    else if (is_left && !is_short)
+      gaps = GapParts::SHORT_PARTS;
+    else {
+      gaps = GapParts::LONG_PARTS;
+      --rings;
+    }
     TriangleMesh spliced;
     spliced.triangles = spliceZones (mesh, made);
     std::size_t noisy_points = 0;
@@ -238,7 +299,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
       noisy_points += is_noise[zone] * points.size ();
     }
     remade.is_noise = 4 * noisy_points > positions.size ();
-    if (remade.is_noise)
+    if (remade.is_noise && !is_left)
       break; // narrower zones would be noise as well
     if (std::count (made.begin (), made.end (), std::nullopt) ==
             static_cast<std::ptrdiff_t> (made.size ()) ||

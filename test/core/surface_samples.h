@@ -84,18 +84,27 @@ bent (double radius)
   };
 }
 
+/// An open sheet of flat pleats, with an angle between each and the next.
+inline KnownSurface
+pleats (int count, double width, double angle, std::uint64_t seed, bool ragged = false)
+{
+  constexpr double HEIGHT = 30.0;
+  const Lift folded = [=] (const Eigen::Vector2d& p) {
+    const double across = p.x () - 2.0 * width * std::round (0.5 * p.x () / width);
+    return Eigen::Vector3d (std::abs (across) * std::cos (0.5 * angle), p.y (),
+                            p.x () * std::sin (0.5 * angle));
+  };
+  const double start = count == 2 ? -width : 0.0;
+  return sharp (sheet ({resample (rectangle (count * width, HEIGHT, {start, 0.0}), 1.0)}, folded,
+                       seed, ragged),
+                (count - 1) * HEIGHT);
+}
+
 /// An open sheet, folded to 30 degrees along its middle.
 inline KnownSurface
 foldedSheet (std::uint64_t seed, bool ragged = false)
 {
-  constexpr double HEIGHT = 30.0;
-  const Lift folded = [] (const Eigen::Vector2d& p) {
-    return Eigen::Vector3d (std::abs (p.x ()) * std::cos (PI / 12.0), p.y (),
-                            p.x () * std::sin (PI / 12.0));
-  };
-  return sharp (
-      sheet ({resample (rectangle (50.0, HEIGHT, {-25.0, 0.0}), 1.0)}, folded, seed, ragged),
-      HEIGHT);
+  return pleats (2, 25.0, PI / 6.0, seed, ragged);
 }
 
 /// A round sheet of radius 20 folded over along a line beside its middle.

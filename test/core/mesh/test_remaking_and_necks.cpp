@@ -209,7 +209,8 @@ TEST (Remaking, KeepsOpenings)
     LocalGeometry geometry;
     geometry.neighbors = nearestOf (ring.positions, 20);
     geometry.spacing.assign (ring.positions.size (), 0.2F);
-    return findDisturbedZones (connected (ring), ring.positions, geometry, {}, 3, false, true, 1)
+    return findDisturbedZones (connected (ring), ring.positions, geometry, {}, 3,
+                               GapParts::LONG_PARTS, true, 1)
         .points.rows ();
   };
   EXPECT_EQ (zones (12), 0U);
