@@ -255,10 +255,9 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
              CrossingPairs& crossing, int widest, RemadeZones& remade, bool closes_gaps,
              const RunContext& run)
 {
-  // At first with whole loops; and again as wide with parts of them if these would do, and with short ones
-  // if a zone with a boundary is left. Then narrower, with short ones only if such a zone is most of its
-  // components: narrow sheets, whose sides contradict each other while the ends are open, which looks like
-  // noise as well.
+  // At first with whole loops; and again as wide if long parts of them would do. At last with short ones, if
+  // a zone with a boundary is left: in a narrow sheet with open ends, long parts leave none of it open. Sides
+  // contradict each other there, which looks like noise.
   int rings = widest;
   bool has_changed = false;
   for (GapParts gaps = GapParts::WHOLE_LOOP; rings > 0;) {
@@ -271,34 +270,40 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
       break;
     remade.is_noisy.resize (positions.size (), 0);
     const ZoneRemaker remaker{mesh, positions, geometry, zones, is_short, run.withThreads (1)};
-    std::atomic<bool> is_left{false};
+    std::atomic<bool> is_left{false},
+        is_most_left{false}; // a zone with a boundary; most of its components
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
       const Row points = zones.points.row (zone);
-      made[zone] = remaker.remake (points, is_noise[zone]);
-      if (!made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_ZONE) &&
-          (rings == widest || !remaker.withComponents (points).empty ()) &&
-          std::any_of (points.begin (), points.end (),
-                       [&] (Index p) { return zones.was_boundary[p] != 0; }))
+      const bool has_boundary = std::any_of (points.begin (), points.end (), [&zones] (Index p) {
+        return zones.was_boundary[p] != 0;
+      });
+      if (has_boundary || !is_short)
+        made[zone] = remaker.remake (points, is_noise[zone]);
+      if (has_boundary && !made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_ZONE)) {
         is_left = true;
+        is_most_left = is_most_left || !remaker.withComponents (points).empty ();
+      }
     });
-    if (gaps == GapParts::WHOLE_LOOP && zones.may_be_parts)
-      gaps = GapParts::LONG_PARTS;
-    else if (is_left && !is_short)
-      gaps = GapParts::SHORT_PARTS;
-    else {
-      gaps = GapParts::LONG_PARTS;
+    if (gaps != GapParts::WHOLE_LOOP || !zones.may_be_parts)
       --rings;
+    if (gaps == GapParts::WHOLE_LOOP)
+      gaps = GapParts::LONG_PARTS;
+    if (rings == 0 && is_left && !is_short) {
+      gaps = GapParts::SHORT_PARTS;
+      rings = widest;
     }
+    else if (is_short && !is_most_left)
+      rings = 0;
     TriangleMesh spliced;
     spliced.triangles = spliceZones (mesh, made);
     std::size_t noisy_points = 0;
-    for (std::size_t zone = 0; zone < made.size (); ++zone) {
+    for (std::size_t zone = 0; zone < made.size () && !is_short; ++zone) {
       const Row points = zones.points.row (zone);
       for (const Index p : points)
         remade.is_noisy[p] = points.size () >= LARGE_ZONE ? is_noise[zone] : 0;
       noisy_points += is_noise[zone] * points.size ();
     }
-    remade.is_noise = 4 * noisy_points > positions.size ();
+    remade.is_noise = is_short ? remade.is_noise : 4 * noisy_points > positions.size ();
     if (remade.is_noise && !is_left)
       break; // narrower zones would be noise as well
     if (std::count (made.begin (), made.end (), std::nullopt) ==
