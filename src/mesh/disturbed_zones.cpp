@@ -25,9 +25,10 @@ constexpr double SAME_SHEET = 0.87;
 constexpr double GAP_SHARE = 1.0 / 3.0;
 
 // Points of a loop in a row that are no gap and separate two, for long and short parts. Along folds of
-// sheets up to 12 in a row were not touching, on true boundaries of wide sheets 48 and more. On one sheet,
-// pieces of a loop are as far apart along it, times their distance.
-constexpr std::size_t LONG_RUN = 32, SHORT_RUN = 4;
+// sheets up to 12 in a row were not touching, on true boundaries of wide sheets 48 and more. A short run is
+// longer than the loop of a pinhole: with 4, a closed blade kept two holes of 7 points. On one sheet, pieces
+// of a loop are LONG_RUN apart along it, times their distance.
+constexpr std::size_t LONG_RUN = 32, SHORT_RUN = SMALL_LOOP + 1;
 
 struct ZoneFinder
 {

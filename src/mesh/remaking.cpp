@@ -270,8 +270,8 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
       break;
     remade.is_noisy.resize (positions.size (), 0);
     const ZoneRemaker remaker{mesh, positions, geometry, zones, is_short, run.withThreads (1)};
-    std::atomic<bool> is_left{false},
-        is_most_left{false}; // a zone with a boundary; most of its components
+    // Whether a zone with a boundary stays as it was; and one that is most of its components.
+    std::atomic<bool> is_left{false}, is_most_left{false};
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
       const Row points = zones.points.row (zone);
       const bool has_boundary = std::any_of (points.begin (), points.end (), [&zones] (Index p) {
