@@ -16,7 +16,7 @@ enum class GapParts : std::uint8_t
 {
   WHOLE_LOOP,  ///< all of it, if a third is
   LONG_PARTS,  ///< parts with long runs of boundary between them
-  SHORT_PARTS, ///< parts with any boundary between them
+  SHORT_PARTS, ///< parts with runs of boundary between them, longer than a pinhole's loop
 };
 
 /// Free points, whose triangles are to be made anew.

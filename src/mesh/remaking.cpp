@@ -281,7 +281,8 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
         made[zone] = remaker.remake (points, is_noise[zone]);
       if (has_boundary && !made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_ZONE)) {
         is_left = true;
-        is_most_left = is_most_left || !remaker.withComponents (points).empty ();
+        if (!remaker.withComponents (points).empty ())
+          is_most_left = true;
       }
     });
     if (gaps != GapParts::WHOLE_LOOP || !zones.may_be_parts)
