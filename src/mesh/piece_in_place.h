@@ -25,7 +25,7 @@ public:
   /// \param is_turned of each patch of the frame; empty: none is
   PieceInPlace (const Place& place, const std::vector<Triangle>& others, const Flags& is_turned,
                 const RunContext& run)
-      : place_ (place), made_ (others.size ())
+      : place_ (place)
   {
     for (std::size_t p = 0; p < place.positions.size (); ++p)
       is_inside_.push_back (place.is_free[p] | place.is_rim[p]);
@@ -45,13 +45,9 @@ public:
   bool isManifold () const { return is_manifold_; }
 
   /// Points inside that have triangles, but not a single fan, closed but at boundaries that stay.
-  /// \param webs if not nullptr: of each of the other triangles, whether it belongs to one fan of several
-  ///     at such a point, between points that were on a boundary before
-  std::vector<Index> misfits (const RunContext& run, Flags* webs = nullptr) const
+  std::vector<Index> misfits (const RunContext& run) const
   {
     std::vector<Index> found;
-    if (webs != nullptr)
-      webs->assign (made_, 0);
     const auto stays = [this] (Index q) { return place_.is_boundary[q] != 0; };
     const TriangleRanges ranges (mesh_.triangles, place_.positions.size (), run);
     StarOrder order;
@@ -61,15 +57,12 @@ public:
         const VertexStar star = stars.of (p);
         if (!isInside (p) || star.size () == 0)
           continue;
-        const bool is_proper = order.set (star);
-        bool fits = is_proper && order.isOneFan ();
+        bool fits = order.set (star) && order.isOneFan ();
         for (std::size_t i = 0; i < star.size () && fits; ++i)
           fits = (order.before (i) != NONE || (stays (p) && stays (star[i].next))) &&
                  (order.after (i) != NONE || (stays (p) && stays (star[i].previous)));
         if (!fits)
           found.push_back (p);
-        if (!fits && webs != nullptr && is_proper && !order.isOneFan ())
-          markWebs (star, order, *webs);
       }
     }
     return found;
@@ -94,26 +87,7 @@ public:
 private:
   bool isInside (std::size_t p) const { return is_inside_[p] != 0; }
 
-  void markWebs (const VertexStar& star, const StarOrder& order, Flags& webs) const
-  {
-    for (Index first = 0; first < star.size (); ++first) {
-      if (order.before (first) != NONE)
-        continue;
-      std::vector<Index> fan;
-      for (Index i = first; i != NONE && fan.size () < star.size (); i = order.after (i))
-        fan.push_back (star[i].triangle);
-      const bool is_web = std::all_of (fan.begin (), fan.end (), [this] (Index t) {
-        return t < made_ && !anyCorner (mesh_.triangles[t],
-                                        [this] (Index p) { return place_.was_boundary[p] == 0; });
-      });
-      for (const Index t : fan)
-        if (is_web)
-          webs[t] = 1;
-    }
-  }
-
   const Place& place_;
-  std::size_t made_; // triangles that are not of the frame
   TriangleMesh mesh_;
   Flags is_inside_; // of each point: free, on the rim, or in other triangles
   bool is_manifold_ = false;

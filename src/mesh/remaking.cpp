@@ -41,7 +41,6 @@ struct ZoneRemaker
   const Positions& positions;
   const LocalGeometry& geometry;
   const DisturbedZones& zones;
-  bool opens_webs;
   RunContext run;
   MeshComponents components = findComponents (mesh, run);
   std::vector<std::size_t> sizes = countPoints (mesh, components);
@@ -93,23 +92,17 @@ struct ZoneRemaker
   std::optional<Remade> remakeFree (std::vector<Index> free, std::uint8_t* is_noise = nullptr) const
   {
     for (int growths = 0; growths <= MOST_GROWTHS; ++growths) {
-      PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh, positions,
-                                geometry.neighbors, zones);
+      const PlaceOfMesh at = placeOf ({free.data (), free.data () + free.size ()}, mesh, positions,
+                                      geometry.neighbors, zones);
       RemadePlace made = remakePlace (at.place, run);
       if (growths == 0 && is_noise != nullptr)
         *is_noise = isNoise (made.flawed, free.size ()) ? 1 : 0;
       if (!made.is_right || hasLid (made, at))
         return std::nullopt;
       dropIslands (at.place, made);
-      std::vector<Index> misfits;
-      Flags webs;
-      do {
-        removeWebs (at.place, made, webs);
-        misfits = PieceInPlace (at.place, made.triangles, made.is_turned, run)
-                      .misfits (run, opens_webs ? &webs : nullptr);
-      } while (std::find (webs.begin (), webs.end (), 1) != webs.end ());
+      const PieceInPlace after (at.place, made.triangles, made.is_turned, run);
+      const std::vector<Index> misfits = after.misfits (run);
       if (misfits.empty ()) {
-        const PieceInPlace after (at.place, made.triangles, made.is_turned, run);
         const PieceInPlace before (at.place, at.old, {}, run);
         const std::size_t faults = after.faults (run);
         if (!after.isManifold () ||
@@ -201,21 +194,6 @@ struct ZoneRemaker
     return std::max (static_cast<double> (geometry.meshSpacing ()[p]), sum / count);
   }
 
-  // Webs in the corner where a gap ends between two true boundaries: their free corners are on a
-  // boundary again.
-  static void removeWebs (Place& place, RemadePlace& made, const Flags& webs)
-  {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < webs.size (); ++t)
-      if (webs[t] == 0)
-        made.triangles[kept++] = made.triangles[t];
-      else
-        for (const Index p : made.triangles[t])
-          place.is_boundary[p] = 1;
-    if (!webs.empty ())
-      made.triangles.resize (kept);
-  }
-
   bool hasLid (const RemadePlace& made, const PlaceOfMesh& at) const
   {
     const Positions& place = at.place.positions;
@@ -269,7 +247,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
     if (made.empty ())
       break;
     remade.is_noisy.resize (positions.size (), 0);
-    const ZoneRemaker remaker{mesh, positions, geometry, zones, is_short, run.withThreads (1)};
+    const ZoneRemaker remaker{mesh, positions, geometry, zones, run.withThreads (1)};
     // Whether a zone with a boundary stays as it was; and one that is most of its components.
     std::atomic<bool> is_left{false}, is_most_left{false};
     parallelTasks (run, made.size (), [&] (std::size_t zone) {
@@ -281,7 +259,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
         made[zone] = remaker.remake (points, is_noise[zone]);
       if (has_boundary && !made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_ZONE)) {
         is_left = true;
-        if (!remaker.withComponents (points).empty ())
+        if (is_short && !remaker.withComponents (points).empty ())
           is_most_left = true;
       }
     });

@@ -21,12 +21,11 @@ struct RemadeZones
 
 /// Makes zones anew in space (see findDisturbedZones and remakePlace): wide ones, then those that
 /// came out wrong again, narrower by a ring each time. At first, loops that are gaps in part are
-/// gaps all along; at last, shorter parts of them are tried (see GapParts), and webs that are left
-/// where a gap ends between two boundaries are removed. A zone grows by points at which its new
-/// triangles do not fit to those around. It stays as it was if its new triangles fit nowhere, have
-/// a lid on an opening, or not clearly fewer faults (see PieceInPlace), or if the sides of pieces of
-/// the mesh contradict each other; also if it is large and some places in it are noise (see
-/// isNoise). One that is left with faults and is most of its components is tried once more with all
+/// gaps all along; at last, shorter parts of them are tried (see GapParts). A zone grows by points
+/// at which its new triangles do not fit to those around. It stays as it was if its new triangles
+/// fit nowhere, have a lid on an opening, or not clearly fewer faults (see PieceInPlace), or if the
+/// sides of pieces of the mesh contradict each other; also if it is large and some places in it are
+/// noise (see isNoise). One that is left with faults and is most of its components is tried once more with all
 /// of them: what is around may be wrong, too.
 /// A zone may have more handles than before: true ones, such as holes through a plate, are often
 /// missing there, and cutNecks () cuts false ones. Components may come out with either side as the

@@ -16,7 +16,6 @@ struct Place
   Flags is_free;               ///< of each point: all its triangles are made anew
   Flags is_rim;                ///< of each point: not free, but beside triangles that go
   Flags is_boundary;           ///< of each point: on a boundary that stays
-  Flags was_boundary;          ///< of each point: on any boundary before
   Flags is_whole;              ///< of each point: all its triangles are in the place
   std::vector<Triangle> frame; ///< triangles that stay, none with a free corner
   std::vector<Index> patch_of; ///< of each triangle of the frame: its patch. The triangles of

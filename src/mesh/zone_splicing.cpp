@@ -147,7 +147,6 @@ placeOf (Row free, const TriangleMesh& mesh, const Positions& positions, const C
   for (Index i = 0; i < points.size (); ++i) {
     place.positions.push_back (positions[points[i]]);
     place.is_boundary.push_back (place.is_free[i] == 0 ? zones.is_boundary[points[i]] : 0);
-    place.was_boundary.push_back (zones.was_boundary[points[i]]);
     mesh.fan (points[i], fan);
     for (const Index t : fan) {
       const Triangle& c = mesh.triangles[t];
