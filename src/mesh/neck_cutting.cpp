@@ -21,6 +21,11 @@ constexpr std::size_t LONGEST_LOOP = 9;
 // Around a loop: two that go or are changed by flips, and one that stays.
 constexpr std::size_t RINGS = 3;
 
+// Points that would lie in the widest circle without one if they were even, at the centres of discs that
+// leave no room for one more. A neck across which more would lie lacks points when it is cut, unless its
+// triangles were as large before: this speaks against a cut as much as it bends the mesh more.
+constexpr double EMPTY_CIRCLE = 2.0;
+
 // Triangles of a mesh that go, and those that come.
 struct Replacement
 {
@@ -43,8 +48,13 @@ public:
     for (const Index p : loop)
       loop_.push_back (numberOf (p));
     positions_ = valuesAt (positions, points_);
-    for (std::size_t i = 0; i < loop.size (); ++i)
-      axis_ += positions[loop[i]].cross (positions[loop[(i + 1) % loop.size ()]]);
+    double spacing = 0.0;
+    for (std::size_t i = 0; i < loop.size (); ++i) {
+      axis_ += 0.5 * (positions[loop[i]] - positions[loop[0]])
+                         .cross (positions[loop[(i + 1) % loop.size ()]] - positions[loop[0]]);
+      spacing += geometry.meshSpacing ()[loop[i]] / static_cast<double> (loop.size ());
+    }
+    most_left_ = std::min (1.0, EMPTY_CIRCLE * spacing * spacing / axis_.norm ());
     axis_.normalize ();
     normals_ = valuesAt (geometry.stars.normals, points_);
     spacing_ = valuesAt (geometry.meshSpacing (), points_);
@@ -65,7 +75,7 @@ public:
     }
   }
 
-  // The cheapest cut; nothing if all cost more than the mesh does now.
+  // The cheapest cut; nothing if all cost too much.
   Replacement cut ()
   {
     Replacement best;
@@ -82,9 +92,11 @@ public:
       if (std::count (after.triangle_of.begin (), after.triangle_of.end (), NONE) > 0 ||
           rimEdges (after) != rim)
         continue;
-      const double cost_before = bending (before_, sorted (after)) + crossings_before;
-      const double most = best.cost_left * cost_before;
-      double cost = bending (after, all_before);
+      double size_before = 0.0, size = 0.0;
+      const double cost_before = bending (before_, sorted (after), size_before) + crossings_before;
+      double cost = bending (after, all_before, size);
+      const double most =
+          std::min (best.cost_left, size > size_before ? most_left_ : 1.0) * cost_before;
       if (cost < most) // else crossings are not looked for
         cost += crossingCost (after);
       if (cost < most)
@@ -208,14 +220,19 @@ private:
   // the lengths of their edges. Edges along the axis count little: they make the neck round, and a
   // long thin limb would have more of them than two caps. Planes of points are not asked: near a false
   // neck, they are those of no sheet.
-  double bending (const TriangleMesh& mesh, const std::set<Triangle>& other) const
+  // \param size out: the mean area of these triangles, doubled
+  double bending (const TriangleMesh& mesh, const std::set<Triangle>& other, double& size) const
   {
     Flags is_common;
     std::vector<Vector3d> normals;
     normals.reserve (mesh.triangles.size ());
+    std::size_t changed = 0;
     for (const Triangle& t : mesh.triangles) {
       is_common.push_back (other.count (fromSmallest (t)) > 0 ? 1 : 0);
-      normals.push_back (areaVectorOf (t, positions_).normalized ());
+      const Vector3d area = areaVectorOf (t, positions_);
+      normals.push_back (area.normalized ());
+      if (is_common.back () == 0)
+        size += (area.norm () - size) / static_cast<double> (++changed);
     }
     double sum = 0.0;
     for (Index t = 0; t < mesh.triangles.size (); ++t)
@@ -251,6 +268,7 @@ private:
   std::vector<Index> loop_;
   Positions positions_;
   Vector3d axis_ = Vector3d::Zero (); // of the neck
+  double most_left_;                  // of the cost, as a share
   Normals normals_;
   std::vector<float> spacing_;
   CsrLists neighbors_;
