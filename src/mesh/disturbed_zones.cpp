@@ -143,7 +143,7 @@ struct ZoneFinder
   // a fold, so near to the other sheet that the points would not show a gap.
   std::vector<Index> pointsOfGap (const std::vector<Index>& loop)
   {
-    if (loop.size () <= SMALL_LOOP)
+    if (loop.size () <= SMALL_LOOP || isBeforeSheet (loop))
       return loop;
     const std::vector<Index> beside = besideSheet (loop, BESIDE);
     if (static_cast<double> (beside.size ()) >= GAP_SHARE * static_cast<double> (loop.size ())) {
@@ -153,6 +153,34 @@ struct ZoneFinder
         return loop;
     }
     return stretches (loop, besideSheet (loop, TOUCHING));
+  }
+
+  // Whether points of another sheet are in the hole that a loop leaves, so near that the points would
+  // show no opening: some of them may belong into it. The surface is on the left of the loop.
+  bool isBeforeSheet (const std::vector<Index>& loop) const
+  {
+    Vector3d centre = Vector3d::Zero (), axis = centre, normal = centre;
+    for (std::size_t i = 0; i < loop.size (); ++i) {
+      const Vector3d at = positions[loop[i]] - positions[loop[0]];
+      centre += at / static_cast<double> (loop.size ());
+      axis -= at.cross (positions[loop[(i + 1) % loop.size ()]] - positions[loop[0]]);
+      normal += on_loop.at (loop[i]).normal;
+    }
+    if (axis.dot (normal) <= 0.0)
+      return false;
+    centre += positions[loop[0]];
+    axis.normalize ();
+    const auto fromCentre = [&] (Index p) { return (positions[p] - centre).norm (); };
+    double radius = std::numeric_limits<double>::infinity ();
+    for (const Index p : loop)
+      radius = std::min (radius, fromCentre (p));
+    return std::any_of (loop.begin (), loop.end (), [&] (Index p) {
+      const Row around = geometry.neighbors.row (p);
+      return std::any_of (around.begin (), around.end (), [&] (Index q) {
+        return fromCentre (q) < radius &&
+               std::abs (axis.dot (positions[q] - centre)) < TOUCHING * geometry.meshSpacing ()[p];
+      });
+    });
   }
 
   // Places in the loop, ascending.

@@ -316,11 +316,11 @@ cases ()
   add ("parallel_2", [] { return parallelSheets (2.0, 1); });
   add ("parallel_3", [] { return parallelSheets (3.0, 3); });
   add ("components", [] { return components (1); });
-  // Two spheres, a fiftieth of a spacing from each other. Without cuts, a neck joins them.
-  for (const std::uint64_t seed : {2, 6, 8, 11})
-    add ("touching_" + std::to_string (seed), [=] {
-      const double distance =
-          std::sqrt (1200.0 / (4.0 * PI)) + std::sqrt (900.0 / (4.0 * PI)) + 0.02;
+  // Two spheres. A neck joins the first four, and the others share points so that a hole is left.
+  for (const auto& [seed, gap] :
+       {std::pair (2, 0.02), {6, 0.02}, {8, 0.02}, {11, 0.02}, {9, 0.5}, {25, 0.2}})
+    add ("touching_" + std::to_string (seed), [seed = seed, gap = gap] {
+      const double distance = std::sqrt (300.0 / PI) + std::sqrt (225.0 / PI) + gap;
       return withComponent (sphere (1200, seed), sphere (900, seed + 100), 1.0,
                             distance * Eigen::Vector3d (1.0, 2.0, 2.0) / 3.0);
     });
