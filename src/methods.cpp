@@ -84,8 +84,9 @@ repairSplits (Draft& draft, const Points& points, const Points& all, LocalGeomet
       neighbors.ids.push_back (q);
     neighbors.offsets.push_back (static_cast<Index> (neighbors.ids.size ()));
   }
-  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, request.limits.repair, finish,
-              request.run);
+  const RepairLimits& limits = request.limits.repair;
+  repairMesh (mesh, all.positions, geometry, Repair::AT_THE_END, limits, finish, request.run);
+  openCrossings (mesh, all.positions, geometry, limits, finish, request.run);
   neighbors = {};
 }
 

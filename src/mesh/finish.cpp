@@ -35,8 +35,8 @@ fillPinholes (TriangleMesh& mesh, const Positions& positions, const std::vector<
 // Removes triangles at the boundary that cross others. Points that they leave join elsewhere.
 // \return whether fewer cross then, and no point is lost; else the mesh stays as it was
 bool
-openCrossings (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
-               CrossingPairs& crossing, const RunContext& run)
+openOnce (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
+          CrossingPairs& crossing, const RunContext& run)
 {
   if (crossing.empty () || !crossing.untested.empty ())
     return false;
@@ -130,10 +130,8 @@ finishMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
         repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
       if (!is_noise && givesUp ())
         return finish;
-      while (settings.open_boundary &&
-             openCrossings (mesh, positions, geometry.neighbors, *finish.crossing, run) &&
-             !is_noise) // in noise, the repair would take as long as before
-        repairMesh (mesh, positions, geometry, Repair::AT_THE_END, settings.limits, finish, run);
+      if (settings.open_boundary)
+        openCrossings (mesh, positions, geometry, settings.limits, finish, run);
     }
   }
   finish.facing = faceOutwards (mesh, positions, settings.facing, run);
@@ -153,6 +151,15 @@ repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geome
       findRidges (mesh, positions, *finish.crossing, finish.remade.is_remade, run), limits, run);
   finish.repairs += done;
   return done;
+}
+
+void
+openCrossings (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry,
+               const RepairLimits& limits, MeshFinish& finish, const RunContext& run)
+{
+  while (openOnce (mesh, positions, geometry.neighbors, *finish.crossing, run) &&
+         !finish.remade.is_noise) // in noise, the repair would take as long as before
+    repairMesh (mesh, positions, geometry, Repair::AT_THE_END, limits, finish, run);
 }
 
 } // namespace pcl::floater

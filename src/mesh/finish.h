@@ -60,4 +60,10 @@ Repairs
 repairMesh (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry, Repair kind,
             const RepairLimits& limits, MeshFinish& finish, const RunContext& run);
 
+/// Removes triangles at the boundary that still cross others, as long as fewer cross then and no point
+/// is lost, and repairs again, except in noise.
+void
+openCrossings (TriangleMesh& mesh, const Positions& positions, LocalGeometry& geometry,
+               const RepairLimits& limits, MeshFinish& finish, const RunContext& run);
+
 } // namespace pcl::floater
