@@ -110,10 +110,9 @@ using AnyTopology = testing::TestWithParam<Case>;
 
 TEST_P (AnyTopology, IsTheSurface)
 {
-  // Outliers less than 10 spacings away in the plane of a sheet are taken for a part of it, and a thin body
-  // without points at its sides has the same points as two close sheets. A blade is left with tunnels
-  // along an edge of 16 degrees, which are too near to each other to be cut one by one. A sheet with a
-  // ragged boundary keeps an edge of 5.3 spacings at its fold.
+  // Outliers less than 10 spacings away in the plane of a sheet are taken for a part of it. A thin body without
+  // points at its sides has the points of two close sheets. A blade of 16 degrees is left with tunnels too near to
+  // each other to be cut one by one. A sheet with a ragged boundary keeps an edge of 5.3 spacings at its fold.
   const std::set<std::string> still_wrong{"sphere_outliers_near", "parallel_2", "blade_16",
                                           "fold_ragged_seed_6"};
   const Case& one = GetParam ();
@@ -132,9 +131,9 @@ TEST_P (AnyTopology, IsTheSurface)
   EXPECT_NE (result.report.topology_reason, "");
   expectTopologyOf (result, surface);
   expectGeometry (result, surface, one);
-  if (!surface.is_even && surface.sharp_length == 0.0) { // no stacks
-    EXPECT_EQ (result.report.check.self_intersections, 0U);
-  }
+  const auto isOf = [&one] (const char* name) { return one.name.find (name) < one.name.size (); };
+  const std::size_t most = isOf ("_in_rows") ? 240 : isOf ("_stacked") ? 2 : 0;
+  EXPECT_LE (result.report.check.self_intersections, most);
 }
 
 // A surface without an orientation has no right mesh: it is refused, or cut with a warning.
@@ -339,6 +338,7 @@ cases ()
     });
     add ("annulus" + name, [=] { return stacked (annulus (1), 2, offset, 2); });
   }
+  add ("half_stacked", [] { return stacked (generated ({Kind::HEMISPHERE, 3000, 3}), 3, 0.2, 3); });
   // Sampling that is far from even.
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const std::string of_seed = "_seed_" + std::to_string (seed);
