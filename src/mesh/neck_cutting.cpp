@@ -21,10 +21,10 @@ constexpr std::size_t LONGEST_LOOP = 9;
 // Around a loop: two that go or are changed by flips, and one that stays.
 constexpr std::size_t RINGS = 3;
 
-// Points that would lie in the widest circle without one if they were even, at the centres of discs that
-// leave no room for one more. A neck across which more would lie lacks points when it is cut, unless its
-// triangles were as large before: this speaks against a cut as much as it bends the mesh more.
-constexpr double EMPTY_CIRCLE = 2.0;
+// Area of the largest circle without a point, in squared spacings, in an even sample: points at the centres
+// of discs that leave no room for one more. Caps of a wider neck have too few points. It is cut only if the
+// mesh is bent less by the same factor, or if its triangles become no larger.
+constexpr double LARGEST_EMPTY_AREA = 2.0;
 
 // Triangles of a mesh that go, and those that come.
 struct Replacement
@@ -54,7 +54,7 @@ public:
                          .cross (positions[loop[(i + 1) % loop.size ()]] - positions[loop[0]]);
       spacing += geometry.meshSpacing ()[loop[i]] / static_cast<double> (loop.size ());
     }
-    most_left_ = std::min (1.0, EMPTY_CIRCLE * spacing * spacing / axis_.norm ());
+    most_left_ = std::min (1.0, LARGEST_EMPTY_AREA * spacing * spacing / axis_.norm ());
     axis_.normalize ();
     normals_ = valuesAt (geometry.stars.normals, points_);
     spacing_ = valuesAt (geometry.meshSpacing (), points_);
