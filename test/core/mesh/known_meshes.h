@@ -186,9 +186,9 @@ append (Mesh& mesh, const Mesh& more, const Eigen::Vector3d& shift = Eigen::Vect
 
 /// Both meshes, side by side.
 inline Mesh
-beside (Mesh a, const Mesh& b)
+beside (Mesh a, const Mesh& b, const Eigen::Vector3d& shift = {5.0, 0.0, 0.0})
 {
-  append (a, b, {5.0, 0.0, 0.0});
+  append (a, b, shift);
   return a;
 }
 
@@ -210,22 +210,33 @@ exchange (TriangleMesh& mesh, Index p, Index q)
   EXPECT_TRUE (mesh.connect (mesh.triangle_of.size (), 1));
 }
 
-/// A jittered sheet above another one, both with their fronts above; the points of the upper one
-/// are the second half.
-struct TwoSheets
+/// A mesh whose points have normals upwards, and its boundary loops.
+struct UprightMesh
 {
   Positions positions;
   std::vector<Eigen::Vector3f> normals;
-  CsrLists neighbors; ///< the nearest of each point
   TriangleMesh mesh;
+  std::vector<BoundaryLoop> loops;
 
-  TwoSheets (Mesh lower, const Mesh& upper, int nearest)
+  explicit UprightMesh (const Mesh& made)
+      : positions (made.positions), normals (positions.size (), Eigen::Vector3f::UnitZ ()),
+        mesh (connected (made)),
+        loops (findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
+                                  std::vector<float> (positions.size (), 0.1F), 1))
   {
-    append (lower, upper);
-    mesh = connected (lower);
-    positions = lower.positions;
-    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    neighbors = nearestOf (positions, nearest);
+  }
+};
+
+/// A jittered sheet above another one, both with their fronts above; the points of the upper one
+/// are the second half.
+struct TwoSheets : UprightMesh
+{
+  CsrLists neighbors; ///< the nearest of each point
+
+  TwoSheets (const Mesh& lower, const Mesh& upper, int nearest)
+      : UprightMesh (beside (lower, upper, {0.0, 0.0, 0.0})),
+        neighbors (nearestOf (positions, nearest))
+  {
   }
 };
 

@@ -51,41 +51,29 @@ TEST (PolygonFilling, IsTheBestOfAllTriangulations)
   }
 }
 
-// A flat ring of two rows of points, a circle of radius 1.2 and one of radius 1; its triangles, and
-// its loops with the inner one last.
-struct Ring
+// A flat ring of two rows of points, a circle of radius 1.2 and one of radius 1: its second loop.
+Mesh
+ringOf (Index around)
 {
-  Positions positions;
-  std::vector<Eigen::Vector3f> normals;
-  TriangleMesh mesh;
-  std::vector<BoundaryLoop> loops;
+  return cells (
+      around, 1,
+      [=] (Index x, Index y) { return polar (y == 0 ? 1.2 : 1.0, 2.0 * PI * x / around); }, true);
+}
 
-  explicit Ring (Index around)
-  {
-    const Mesh ring = cells (
-        around, 1,
-        [=] (Index x, Index y) { return polar (y == 0 ? 1.2 : 1.0, 2.0 * PI * x / around); }, true);
-    positions = ring.positions;
-    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    mesh = connected (ring);
-    loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
-                               std::vector<float> (positions.size (), 0.1F), 1);
-    EXPECT_EQ (loops.size (), 2U);
-  }
-
-  std::size_t fill ()
-  {
-    return fillHoles (mesh, loops, positions, TriangleCost (positions, normals), 1);
-  }
-};
+std::size_t
+fill (UprightMesh& made)
+{
+  return fillHoles (made.mesh, made.loops, made.positions,
+                    TriangleCost (made.positions, made.normals), 1);
+}
 
 TEST (HoleFilling, FillsLoopsOfAnySize)
 {
   for (const Index around : {3U, 12U, 40U, 128U, 129U, 300U}) {
     SCOPED_TRACE (around);
-    Ring ring (around);
+    UprightMesh ring (ringOf (around));
     ring.loops[0].keep_open = true;
-    EXPECT_EQ (ring.fill (), 1U);
+    EXPECT_EQ (fill (ring), 1U);
     EXPECT_EQ (ring.mesh.triangles.size (), 3 * around - 2);
     EXPECT_EQ (expectDisc (ring.mesh, 2 * around), indices (around));
     // All faces up, without overlaps: the area is that of the outer polygon.
@@ -98,10 +86,10 @@ TEST (HoleFilling, FillsLoopsOfAnySize)
 
 TEST (HoleFilling, LoopsThatAreToStayOpenDo)
 {
-  Ring ring (40);
+  UprightMesh ring (ringOf (40));
   ring.loops[0].keep_open = ring.loops[1].keep_open = true;
   const TriangleMesh before = ring.mesh;
-  EXPECT_EQ (ring.fill (), 0U);
+  EXPECT_EQ (fill (ring), 0U);
   expectSame (ring.mesh, before);
 }
 
@@ -135,7 +123,7 @@ TEST (HoleFilling, ALoopThatCannotBeFilledIsKeptOpen)
 TEST (HoleFilling, OnlyTrianglesThatFitAreTaken)
 {
   for (const Index around : {12U, 140U}) {
-    Ring ring (around);
+    UprightMesh ring (ringOf (around));
     ring.loops[0].keep_open = true;
     const Index apex = ring.loops[1].points[5];
     const TriangleCost cost (ring.positions, ring.normals);
@@ -154,30 +142,19 @@ TEST (HoleFilling, OnlyTrianglesThatFitAreTaken)
 }
 
 // A mesh, one loop of which is filled across another sheet.
-struct Crossed
+struct Crossed : UprightMesh
 {
-  Positions positions;
-  std::vector<Eigen::Vector3f> normals;
-  TriangleMesh mesh;
-  std::vector<BoundaryLoop> loops;
-  std::size_t before = 0;
+  std::size_t before = mesh.triangles.size ();
   CrossingPairs pairs;
   Flags is_crossing; // of each point
 
   // \param ring with two loops, the second of which is filled
   Crossed (const Mesh& ring, const Mesh& sheet)
+      : UprightMesh (beside (ring, sheet, {0.0, 0.0, 0.0}))
   {
-    Mesh both = ring;
-    append (both, sheet);
-    positions = both.positions;
-    normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
-    mesh = connected (both);
-    before = mesh.triangles.size ();
-    loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
-                               std::vector<float> (positions.size (), 0.1F), 1);
     EXPECT_EQ (loops.size (), 3U);
     loops[0].keep_open = loops[2].keep_open = true;
-    EXPECT_EQ (fillHoles (mesh, loops, positions, TriangleCost (positions, normals), 1), 1U);
+    EXPECT_EQ (fill (*this), 1U);
     pairs = findSelfIntersections (mesh.triangles, positions, 1);
     is_crossing.assign (positions.size (), 0);
     for (const CrossingPair& pair : pairs)
@@ -194,9 +171,7 @@ struct Crossed
 
 TEST (CrossedFillings, AHoleWithASheetInItStaysOpenIfItMay)
 {
-  const Mesh window = cells (
-      16, 1, [] (Index x, Index y) { return polar (y == 0 ? 1.2 : 1.0, 2.0 * PI * x / 16); }, true);
-  Crossed crossed (window, cells (8, 8, [] (Index x, Index y) {
+  Crossed crossed (ringOf (16), cells (8, 8, [] (Index x, Index y) {
                      return Eigen::Vector3d (x / 8.0 - 0.5, 0.01, y / 8.0 - 0.5);
                    }));
   const CrossedFillings fillings = crossed.fillings ();

@@ -25,16 +25,13 @@ TEST (BoundaryLoops, TheWidthIsExactUpTo256PointsAndThenShortByTwoStepsAtMost)
       const double radius = 1.0 + 0.3 * std::sin (3.0 * angle) + 0.01 * random.uniform ();
       positions.push_back (polar (radius, angle));
     }
-    double exact = 0.0;
-    for (const Eigen::Vector3d& p : positions)
+    double exact = 0.0, step = 0.0; // of the places that are measured, at the most
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d& p = positions[i];
+      step = std::max (step, std::ceil (count / 256.0) * (positions[(i + 1) % count] - p).norm ());
       for (const Eigen::Vector3d& q : positions)
         exact = std::max (exact, (p - q).norm ());
-    // From each point along the loop to the next one that is measured.
-    const std::size_t stride = (count + 255) / 256;
-    double step = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t j = 1; j <= stride; ++j)
-        step = std::max (step, (positions[(i + j) % count] - positions[i]).norm ());
+    }
     const BoundaryLoop loop =
         measureLoop (indices (count), positions, std::vector<float> (count, 0.1F));
     EXPECT_LE (loop.width, exact);
@@ -54,17 +51,13 @@ loopOf (double length, const LoopJudgement& judgement, Index component = 0)
   return loop;
 }
 
-using Indices = std::vector<std::size_t>;
+using Indices = std::vector<Index>;
 
 Indices
 kept (std::vector<BoundaryLoop> loops, const HoleOptions& holes, double unit = 1.0)
 {
   chooseOpenLoops (loops, holes, unit);
-  Indices indices;
-  for (std::size_t i = 0; i < loops.size (); ++i)
-    if (loops[i].keep_open)
-      indices.push_back (i);
-  return indices;
+  return indicesWhere (loops.size (), [&] (Index i) { return loops[i].keep_open; });
 }
 
 TEST (OpenLoops, AreKeptIfTheyExceedTheSizeGivenInItsUnit)
@@ -123,31 +116,30 @@ TEST (OpenLoops, DecisionsNearEvenOddsAreDoubtful)
 }
 
 // A sheet of equilateral triangles of side 1 without those that have a corner nearer to the middle
-// than `inside`.
-struct TriangularSheet
+// than `inside`. Its first loop is that of the hole.
+struct TriangularSheet : UprightMesh
 {
-  std::vector<Eigen::Vector3d> positions;
-  TriangleMesh mesh;
-  std::vector<BoundaryLoop> loops; // first that of the hole
-  LocalGeometry geometry;          // neighbours share an edge
+  LocalGeometry geometry; // neighbours share an edge
 
-  TriangularSheet (Index half, double inside)
+  static Mesh made (Index half, double inside)
   {
-    Mesh whole = cells (2 * half, 2 * half, [half] (Index x, Index y) {
+    Mesh sheet = cells (2 * half, 2 * half, [half] (Index x, Index y) {
       return Eigen::Vector3d (x - 0.5 * y - 0.5 * half, std::sqrt (0.75) * (1.0 * y - half), 0.0);
     });
-    positions = whole.positions;
-    for (const Triangle& t : whole.triangles)
-      if (std::all_of (t.begin (), t.end (),
-                       [&] (Index p) { return positions[p].norm () >= inside; }))
-        mesh.triangles.push_back (t);
-    EXPECT_TRUE (mesh.connect (positions.size (), 1));
-    loops = findBoundaryLoops (mesh, findComponents (mesh, 1), positions,
-                               std::vector<float> (positions.size (), 1.0F), 1);
+    const auto isInside = [&] (const Triangle& t) {
+      return anyCorner (t, [&] (Index p) { return sheet.positions[p].norm () < inside; });
+    };
+    Triangles& all = sheet.triangles;
+    all.erase (std::remove_if (all.begin (), all.end (), isInside), all.end ());
+    return sheet;
+  }
+
+  TriangularSheet (Index half, double inside) : UprightMesh (made (half, inside))
+  {
     EXPECT_EQ (loops.size (), 2U);
     if (loops.size () == 2 && loops[1].length < loops[0].length)
       std::swap (loops[0], loops[1]);
-    geometry.stars.normals.assign (positions.size (), Eigen::Vector3f::UnitZ ());
+    geometry.stars.normals = normals;
     geometry.neighbors = makeCsrLists (positions.size (), [&] (auto&& emit) {
       for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
