@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/loops.h"
 
+#include "core/order_statistics.h"
 #include "local/planar_star.h"
 #include "local/star_reach.h"
 #include "mesh/hole_filling.h"
@@ -20,6 +21,9 @@ constexpr double EMPTY_ANGLE = 130.0 * DEGREE;
 // stay open by the automatic policy. Measured: fewer than 1 in 200 generated gaps from 4 spacings on
 // are deeper.
 constexpr double DEEPEST_GAP = 2.46;
+
+// Absolute log odds from which on loops are certain: 20 to 1.
+constexpr double CERTAIN_LOG_ODDS = 3.0;
 
 // Corners of a loop in its filling; a longer one is sampled in even steps. Limits the time, which
 // grows with the third power.
@@ -61,17 +65,23 @@ struct RingWalk
   // Of each point, NONE outside of a walk.
   std::vector<Index> ring_of = std::vector<Index> (positions.size (), NONE);
   std::vector<Index> fan = {}, beside = {};
+  // Of the last walk: its points, ring by ring; the ends of the rings in them; and the edges from the loop
+  // to the first ring.
+  std::vector<Index> points = {};
+  std::array<std::size_t, RINGS> ends = {};
+  LogLengths inwards = {};
 
   // The edges that begin in each ring and do not lead back; ring 0 is the loop.
   std::array<LogLengths, RINGS> walk (const std::vector<Index>& loop)
   {
     std::array<LogLengths, RINGS> edges;
-    std::vector<Index> points = loop; // ring by ring
+    points = loop;
+    inwards = {};
     for (const Index p : points)
       ring_of[p] = 0;
     std::size_t first = 0;
     for (Index ring = 0; ring < RINGS; ++ring) {
-      const std::size_t last = points.size ();
+      const std::size_t last = ends[ring] = points.size ();
       for (std::size_t i = first; i < last; ++i)
         for (const Index q : around (points[i]))
           if (ring_of[q] == NONE) {
@@ -81,8 +91,12 @@ struct RingWalk
       for (; first < last; ++first) {
         const Index p = points[first];
         for (const Index q : around (p))
-          if (ring_of[q] > ring || (ring_of[q] == ring && p < q))
-            edges[ring].add ((positions[q] - positions[p]).norm ());
+          if (ring_of[q] > ring || (ring_of[q] == ring && p < q)) {
+            const double length = (positions[q] - positions[p]).norm ();
+            edges[ring].add (length);
+            if (ring_of[q] > ring && ring == 0)
+              inwards.add (length);
+          }
       }
     }
     for (const Index p : points)
@@ -139,6 +153,38 @@ findDepth (const std::vector<Index>& loop, const Positions& positions, PolygonFi
   return depth;
 }
 
+// Whether a loop is the last of lines in parallel planes, as slices of a body, and the next plane would miss
+// the surface, since the sections become so narrow towards the loop.
+bool
+isLastLine (const RingWalk& rings, const Positions& positions, const Vector3d& centre,
+            const Vector3d& axis)
+{
+  // Root mean square of the distances to the nearest plane, in steps between planes: 0.29 for any heights.
+  constexpr double LARGEST_OFFSET = 0.1;
+  // Of the squared width, over one step. Where a surface ends within a step, it is 2 or more for a
+  // paraboloid, and 1.5 or more for a sphere that 5 planes meet.
+  constexpr double LEAST_GROWTH = 1.5;
+  const auto heightOf = [&] (Index p) { return axis.dot (positions[p] - centre); };
+  std::vector<double> heights;
+  for (std::size_t i = rings.ends[0]; i < rings.ends[1]; ++i)
+    heights.push_back (heightOf (rings.points[i]));
+  const double step = heights.empty () ? 0.0 : median (heights);
+  if (step == 0.0)
+    return false;
+  std::array<PlaneFit, 2> sections; // at the loop, and a step beside
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rings.ends[2]; ++i) {
+    const Index p = rings.points[i];
+    const double height = heightOf (p) / step, plane = std::round (height);
+    sum += (height - plane) * (height - plane);
+    if (plane == 0.0 || plane == 1.0)
+      sections[plane == 0.0 ? 0 : 1].add (positions[p] - centre);
+  }
+  return sum < LARGEST_OFFSET * LARGEST_OFFSET * static_cast<double> (rings.ends[2]) &&
+         sections[0].weight () > 0.0 &&
+         sections[1].line ().mean_square > LEAST_GROWTH * sections[0].line ().mean_square;
+}
+
 LoopEvidence
 lookAt (const BoundaryLoop& loop, const Positions& positions, RingWalk& rings,
         PolygonFilling& filling)
@@ -160,7 +206,11 @@ lookAt (const BoundaryLoop& loop, const Positions& positions, RingWalk& rings,
   LoopEvidence evidence;
   evidence.compactness = 2.0 * PI * double_area.norm () / (loop.length * loop.length);
   const double edge = std::sqrt (squares / static_cast<double> (count));
-  evidence.depth = findDepth (loop.points, positions, filling) / edge;
+  if (!rings.inwards.isEmpty ())
+    evidence.line_distance = std::max (1.0, std::exp (rings.inwards.mean ()) *
+                                                static_cast<double> (count) / loop.length);
+  evidence.is_last_line = isLastLine (rings, positions, centre, double_area.normalized ());
+  evidence.depth = findDepth (loop.points, positions, filling) / (edge * evidence.line_distance);
   evidence.irregularity = edges[2].deviation ();
   evidence.edge = std::exp (edges[2].mean ());
   evidence.growth = edges[3].isEmpty () ? 0.0 : edges[0].mean () - edges[3].mean ();
@@ -176,14 +226,17 @@ lookAt (const BoundaryLoop& loop, const Positions& positions, RingWalk& rings,
 LoopJudgement
 judge (const BoundaryLoop& loop, const LoopEvidence& evidence)
 {
-  const auto points = static_cast<double> (loop.points.size ());
+  const double points = static_cast<double> (loop.points.size ()) / evidence.line_distance;
   LoopJudgement judgement;
   judgement.log_odds = -12.6 + 2.19 * std::log (points) + 12.9 * evidence.compactness -
                        5.35 * evidence.irregularity - 2.06 * evidence.growth +
                        1.54 * evidence.turning +
                        0.599 * std::sqrt (points) * std::pow (evidence.open_share, 4);
   judgement.empty_length = evidence.empty_share * loop.length;
-  judgement.is_too_deep = evidence.depth * evidence.open_share > DEEPEST_GAP;
+  judgement.is_too_deep =
+      !evidence.is_last_line && evidence.depth * evidence.open_share > DEEPEST_GAP;
+  if (evidence.is_last_line)
+    judgement.log_odds = std::min (judgement.log_odds, -CERTAIN_LOG_ODDS);
   return judgement;
 }
 
@@ -304,7 +357,6 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops)
   // plates with windows, 137, 138 and 139 are right with 0.1, 0.2 and 0.3, 134 if each is judged by
   // itself.
   constexpr double ALIKE = 0.2;
-  constexpr double CERTAIN = 3.0; // absolute log odds from which on loops are certain: 20 to 1
   std::vector<std::pair<double, BoundaryLoop*>> by_width;
   for (BoundaryLoop* loop : loops)
     if (loop->width > 0.0)
@@ -313,7 +365,8 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops)
                     [] (const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<double> sums{0.0};
   for (const auto& [width, loop] : by_width)
-    sums.push_back (sums.back () + std::clamp (loop->judgement.log_odds, -CERTAIN, CERTAIN));
+    sums.push_back (sums.back () +
+                    std::clamp (loop->judgement.log_odds, -CERTAIN_LOG_ODDS, CERTAIN_LOG_ODDS));
   std::size_t first = 0, last = 0;
   for (const auto& [width, loop] : by_width) {
     while (by_width[first].first < width - ALIKE)
@@ -323,7 +376,7 @@ judgeTogether (const std::vector<BoundaryLoop*>& loops)
     double& own = loop->judgement.log_odds;
     const double together =
         (sums[last] - sums[first]) / std::sqrt (static_cast<double> (last - first));
-    if (std::abs (own) < CERTAIN || (own < 0.0 && together > CERTAIN))
+    if (std::abs (own) < CERTAIN_LOG_ODDS || (own < 0.0 && together > CERTAIN_LOG_ODDS))
       own = together;
   }
 }

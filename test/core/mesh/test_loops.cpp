@@ -164,6 +164,8 @@ TEST (LoopEvidence, OfAHexagonalHoleInAnEvenSheetIsExact)
   EXPECT_NEAR (hole.irregularity, 0.0, 1e-6);
   EXPECT_NEAR (hole.growth, 0.0, 1e-12);
   EXPECT_NEAR (hole.turning, -1.0, 1e-12);
+  EXPECT_NEAR (hole.line_distance, 1.0, 1e-12);
+  EXPECT_FALSE (hole.is_last_line); // in one plane
   // A point of the hexagon misses one of six neighbours: a sector of 120 degrees.
   EXPECT_EQ (hole.open_share, 0.0);
   // The border turns the other way.
@@ -224,6 +226,29 @@ TEST (LoopEvidence, OfGapsBetweenProfilesIsAlike)
     alike += loops == 1 || loops == GAPS * GAPS + 1 ? 1 : 0;
   }
   EXPECT_GE (alike, 8);
+}
+
+// Slices of a body of revolution, some steps apart. A ball is closed though no slice meets its ends; the
+// end of a bowl or of a tube is open.
+TEST (LoopEvidence, OfTheLastSliceShowsWhetherABodyEndsThere)
+{
+  const auto loopsOf = [] (double apart, std::uint64_t seed, double top, bool is_tube) {
+    RandomStream random (seed);
+    Positions points;
+    for (double z = -30.0 + apart * random.uniform (); z < top; z += apart) {
+      const double radius = is_tube ? 12.0 : std::sqrt (900.0 - z * z),
+                   count = std::ceil (6.28 * radius);
+      for (double i = random.uniform (); i < count; ++i)
+        points.push_back (polar (radius, 2.0 * PI * i / count, z));
+    }
+    return reconstruct (asInput (points), {}).report.check.loops.size ();
+  };
+  for (const double apart : {1.5, 3.0, 6.0})
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      EXPECT_EQ (loopsOf (apart, seed, 30.0, false), 0U) << apart << " " << seed;
+      EXPECT_EQ (loopsOf (apart, seed, 10.0, false), 1U) << apart << " " << seed;
+      EXPECT_EQ (loopsOf (apart, seed, 30.0, true), 2U) << apart << " " << seed;
+    }
 }
 
 TEST (LoopEvidence, PointsOnAnotherSheetDoNotCloseABoundary)
