@@ -25,6 +25,10 @@ constexpr double DEEPEST_GAP = 2.46;
 // Absolute log odds from which on loops are certain: 20 to 1.
 constexpr double CERTAIN_LOG_ODDS = 3.0;
 
+// Points of a loop that count for each line that it interrupts, at least. With 3, generated lines keep
+// as many windows as if all points counted; with 2, half of those that are 6 lines wide, 8 steps apart.
+constexpr double POINTS_OF_LINE = 3.0;
+
 // Corners of a loop in its filling; a longer one is sampled in even steps. Limits the time, which
 // grows with the third power.
 constexpr std::size_t MOST_CORNERS = 64;
@@ -193,22 +197,24 @@ lookAt (const BoundaryLoop& loop, const Positions& positions, RingWalk& rings,
   Vector3d centre = Vector3d::Zero ();
   for (const Index p : loop.points)
     centre += positions[p] / static_cast<double> (count);
+  const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
+  const double mean = loop.length / static_cast<double> (count),
+               inwards = rings.inwards.isEmpty () ? mean : std::exp (rings.inwards.mean ());
   Vector3d double_area = Vector3d::Zero ();
-  double curvature = 0.0, squares = 0.0;
+  double curvature = 0.0, squares = 0.0, across = 0.0; // steps from line to line
   for (std::size_t i = 0; i < count; ++i) {
     const Index p = loop.points[i], q = loop.points[i + 1 == count ? 0 : i + 1];
     const double step = (positions[q] - positions[p]).norm ();
     squares += step * step;
+    across += step * step > mean * inwards ? 1.0 : 0.0;
     double_area += (positions[p] - centre).cross (positions[q] - centre);
     curvature += rings.curvature (p);
   }
-  const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
   LoopEvidence evidence;
   evidence.compactness = 2.0 * PI * double_area.norm () / (loop.length * loop.length);
   const double edge = std::sqrt (squares / static_cast<double> (count));
-  if (!rings.inwards.isEmpty ())
-    evidence.line_distance = std::max (1.0, std::exp (rings.inwards.mean ()) *
-                                                static_cast<double> (count) / loop.length);
+  const double most = static_cast<double> (count) / (POINTS_OF_LINE * std::max (1.0, across));
+  evidence.line_distance = std::max (1.0, std::min (inwards / mean, most));
   evidence.is_last_line = isLastLine (rings, positions, centre, double_area.normalized ());
   evidence.depth = findDepth (loop.points, positions, filling) / (edge * evidence.line_distance);
   evidence.irregularity = edges[2].deviation ();

@@ -65,12 +65,12 @@ struct LoopEvidence
   double turning = 0.0;      ///< total geodesic curvature in turns, seen from the surface: -1 for a
                              ///< hole in a plane, 0 for the end of a tube, 1 for the border of a
                              ///< disc; limited to -3/2 to 3/2
-  double line_distance =
-      1.0; ///< where the points lie in lines: the distance to the next line over that
-           ///< of the loop's points; at least 1
-  bool is_last_line =
-      false;          ///< the points lie in parallel planes, and the surface seems to end before
-                      ///< the next one would meet it, as the top of a sliced body
+  /// Where points lie in lines: the distance to the next line over that of points in the loop; less if the
+  /// loop interrupts many lines; at least 1.
+  double line_distance = 1.0;
+  /// The points lie in parallel planes, and the surface seems to end before it meets the next one, as the
+  /// top of a sliced body.
+  bool is_last_line = false;
   double depth = 0.0; ///< largest height of a triangle in a filling of least area, over the root
                       ///< mean square of the loop's edges, and over line_distance: the largest
                       ///< width of the loop, however long and bent it is; where different spacings
