@@ -25,10 +25,6 @@ constexpr double DEEPEST_GAP = 2.46;
 // Absolute log odds from which on loops are certain: 20 to 1.
 constexpr double CERTAIN_LOG_ODDS = 3.0;
 
-// Points of a loop that count for each line that it interrupts, at least. With 3, generated lines keep
-// as many windows as if all points counted; with 2, half of those that are 6 lines wide, 8 steps apart.
-constexpr double POINTS_OF_LINE = 3.0;
-
 // Corners of a loop in its filling; a longer one is sampled in even steps. Limits the time, which
 // grows with the third power.
 constexpr std::size_t MOST_CORNERS = 64;
@@ -69,8 +65,7 @@ struct RingWalk
   // Of each point, NONE outside of a walk.
   std::vector<Index> ring_of = std::vector<Index> (positions.size (), NONE);
   std::vector<Index> fan = {}, beside = {};
-  // Of the last walk: its points, ring by ring; the ends of the rings in them; and the edges from the loop
-  // to the first ring.
+  // Of the last walk: its points, with the ends of the rings, and the edges from the loop inwards.
   std::vector<Index> points = {};
   std::array<std::size_t, RINGS> ends = {};
   LogLengths inwards = {};
@@ -197,6 +192,9 @@ lookAt (const BoundaryLoop& loop, const Positions& positions, RingWalk& rings,
   Vector3d centre = Vector3d::Zero ();
   for (const Index p : loop.points)
     centre += positions[p] / static_cast<double> (count);
+  // Points of a loop that count for each line that it interrupts, at least. With 3, generated lines keep
+  // as many windows as if all points counted; with 2, half of those that are 6 lines wide, 8 steps apart.
+  constexpr double POINTS_OF_LINE = 3.0;
   const std::array<LogLengths, RingWalk::RINGS> edges = rings.walk (loop.points);
   const double mean = loop.length / static_cast<double> (count),
                inwards = rings.inwards.isEmpty () ? mean : std::exp (rings.inwards.mean ());
@@ -239,10 +237,9 @@ judge (const BoundaryLoop& loop, const LoopEvidence& evidence)
                        1.54 * evidence.turning +
                        0.599 * std::sqrt (points) * std::pow (evidence.open_share, 4);
   judgement.empty_length = evidence.empty_share * loop.length;
-  judgement.is_too_deep =
-      !evidence.is_last_line && evidence.depth * evidence.open_share > DEEPEST_GAP;
+  judgement.is_too_deep = evidence.depth * evidence.open_share > DEEPEST_GAP;
   if (evidence.is_last_line)
-    judgement.log_odds = std::min (judgement.log_odds, -CERTAIN_LOG_ODDS);
+    judgement = {std::min (judgement.log_odds, -CERTAIN_LOG_ODDS), judgement.empty_length, false};
   return judgement;
 }
 
