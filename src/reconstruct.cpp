@@ -258,7 +258,7 @@ reconstructByNeighbors (Points& points, NeighborSearch* searcher, const Request&
   std::vector<Index> scatter;
   if (options.denoise || drops_scatter)
     scatter = findScatter (geometry, noise, is_certain, run);
-  if (is_certain && areOnTwoSides (points.positions, scatter, run))
+  if (is_certain && areOnTwoSides (points.positions, scatter, geometry.neighbors, run))
     scatter.clear (); // thin fins, several of them in a neighbourhood
   if (drops_scatter)
     scatter = exceptLoop (std::move (scatter), points, options);

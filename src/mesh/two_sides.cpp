@@ -3,6 +3,7 @@
 #include "mesh/two_sides.h"
 
 #include "core/disjoint_sets.h"
+#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"
@@ -311,22 +312,26 @@ remakePlace (const Place& place, const RunContext& run, bool only_counts)
 }
 
 bool
-areOnTwoSides (const Positions& positions, const std::vector<Index>& points, const RunContext& run)
+areOnTwoSides (const Positions& positions, const std::vector<Index>& points,
+               const CsrLists& neighbors, const RunContext& run)
 {
-  // One in so many points may be flawed. Clean bodies with thin walls and fins had one in 66 or fewer;
-  // points strewn into volumes, lattices, leaves and branches one in 19 or more.
-  constexpr std::size_t PARTS = 4, LARGEST_PART = 2048, SHARE = 25;
+  // One in so many points may be flawed. Even bodies with thin walls had one in 20 or fewer; points
+  // strewn into volumes, lattices, leaves and trees one in 10 or more.
+  constexpr std::size_t PARTS = 4, LARGEST_PART = 2048, SHARE = 15;
   const std::size_t size = std::min (LARGEST_PART, points.size ()),
                     parts = points.size () > size ? PARTS : 1;
   std::vector<std::size_t> flawed (parts);
   parallelTasks (run, parts, [&] (std::size_t part) {
+    const Index* const first = points.data () + part * (points.size () - size) / (PARTS - 1);
+    std::vector<Index> near (first, first + size); // and what is around
+    for (std::size_t i = 0; i < size; ++i)
+      near.insert (near.end (), neighbors.row (first[i]).begin (), neighbors.row (first[i]).end ());
+    sortUnique (near);
     Place place;
-    const std::size_t first = part * (points.size () - size) / (PARTS - 1);
-    for (std::size_t i = first; i < first + size; ++i)
-      place.positions.push_back (positions[points[i]]);
-    place.is_free.assign (size, 1);
-    place.is_rim.assign (size, 0);
-    place.is_boundary = place.is_rim;
+    place.positions = valuesAt (positions, near);
+    place.is_rim = place.is_boundary = Flags (near.size (), 0);
+    for (const Index p : near)
+      place.is_free.push_back (std::binary_search (first, first + size, p) ? 1 : 0);
     flawed[part] = remakePlace (place, run.withThreads (1), true).flawed;
   });
   return std::accumulate (flawed.begin (), flawed.end (), std::size_t{0}) * SHARE <= parts * size;

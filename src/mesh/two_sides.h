@@ -4,6 +4,7 @@
 // two sides of space.
 #pragma once
 
+#include "core/csr_lists.h"
 #include "core/run_context.h"
 #include "core/types.h"
 
@@ -59,8 +60,9 @@ remakePlace (const Place& place, const RunContext& run, bool only_counts = false
 
 /// Whether points are on a surface, however near its sheets are to each other: at hardly any of them the
 /// balls tell no two sides. Four parts of at most 2,048 points are looked at, each in some 0.1 seconds.
-/// \param points of `positions`; those that are near in this order are near in space
+/// \param points ascending, of `positions`; those that are near in this order are near in space
 bool
-areOnTwoSides (const Positions& positions, const std::vector<Index>& points, const RunContext& run);
+areOnTwoSides (const Positions& positions, const std::vector<Index>& points,
+               const CsrLists& neighbors, const RunContext& run);
 
 } // namespace pcl::floater

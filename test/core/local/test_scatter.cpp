@@ -121,12 +121,12 @@ TEST (Scatter, SurfacesAreNoneHoweverNoisyOrThin)
 {
   std::vector<std::pair<const char*, Positions>> clouds{
       {"small sphere", surface (SurfaceKind::SPHERE, 400)}};
-  for (const double thickness : {0.5, 1.0, 2.0}) { // below its spacing: uneven, but stars agree
-    clouds.push_back ({"wall", {}});
-    for (int x = 0; x < 60; ++x)
-      for (int y = 0; y < 60; ++y)
-        for (const double z : {0.0, thickness})
-          clouds.back ().second.emplace_back (x + 0.31 * (y % 3) + (z > 0.0 ? 0.5 : 0.0), y, z);
+  // Below its spacing, a wall is uneven, but stars agree. Of many, the balls between them tell the sides.
+  RandomStream jitter (9);
+  for (const auto& [thick, sheets] : {std::pair (0.5, 2), {1.0, 2}, {2.0, 2}, {1.6, 8}}) {
+    clouds.push_back ({"walls", jitteredGrid (40, 40 * sheets, 1.0, 0.6, jitter)});
+    for (Eigen::Vector3d& p : clouds.back ().second)
+      p += std::floor (p.y () / 40.0) * Eigen::Vector3d (0.0, -40.0, thick);
   }
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     RandomStream random (seed);
