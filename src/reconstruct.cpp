@@ -162,17 +162,21 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
 
 // Like reconstructView (), for the given viewpoint, or the origin of the sensor if the points are evenly
 // spaced from there; nothing if there is none. Warns if a given one may be wrong.
+// \param unknown where a sensor would be whose place nobody told
 std::optional<Problem>
-reconstructKnownView (const Points& points, const Request& request, Result& result)
+reconstructKnownView (const Points& points, const std::array<double, 3>& unknown,
+                      const Request& request, Result& result)
 {
   const ViewOptions& options = request.options.view;
   const bool is_given = options.use == ViewUse::GIVEN;
-  Viewpoint viewpoint{points.fromCloud (is_given ? options.viewpoint : request.sensor_origin)};
+  const bool is_told = isSensorKnown (request.sensor_origin);
+  Viewpoint viewpoint{points.fromCloud (is_given  ? options.viewpoint
+                                        : is_told ? request.sensor_origin
+                                                  : unknown)};
   std::optional<Viewpoint> other;
   if (is_given)
     other = contradictingViewpoint (points, viewpoint, request);
   else {
-    const bool is_told = isSensorKnown (request.sensor_origin);
     const Sight sight = sightFrom (points, viewpoint, is_told, request.run);
     if (sight == Sight::NO)
       return {};
@@ -321,7 +325,8 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
     return problem;
 
   if (mayBeSeen (options))
-    if (const std::optional<Problem> problem = reconstructKnownView (points, request, result))
+    if (const std::optional<Problem> problem = reconstructKnownView (
+            points, {-input.shift[0], -input.shift[1], -input.shift[2]}, request, result))
       return *problem;
   return reconstructByNeighbors (points, input.search, request, known, result);
 }

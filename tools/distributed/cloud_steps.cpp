@@ -235,6 +235,7 @@ joinStep (const Job& job, const Store& store, const Plan& plan)
   Input input;
   input.cloud_size = plan.cloudSize ();
   input.sensor_origin = plan.sensor_origin;
+  input.shift = plan.figures.shift;
   Options options = line.options;
   options.threads = job.join_threads;
   Eigen::Map<Eigen::Vector3d> (options.view.viewpoint.data ()) -= plan.shift ();

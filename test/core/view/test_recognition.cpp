@@ -76,14 +76,18 @@ scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed,
   return castRays (scene, rays, {0.002, 0.0}, random);
 }
 
-// The origin is tried first, and taken as it is.
+// The origin is tried first, and taken as it is; after a shift, what was the origin.
 TEST (Recognition, ASensorInTheOriginIsToldFromOneBesideIt)
 {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero (), beside (0.3, 1.0, -0.2);
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     SCOPED_TRACE (seed);
     EXPECT_EQ (foundIn (viewOf (scanOfCar ({origin}, seed), {}).report), origin);
-    EXPECT_LT ((foundIn (viewOf (scanOfCar ({beside}, seed), {}).report) - beside).norm (), 0.1);
+    const Scan scan = scanOfCar ({beside}, seed);
+    EXPECT_LT ((foundIn (viewOf (scan, {}).report) - beside).norm (), 0.1);
+    Input shifted = asInput (scan.points);
+    Eigen::Map<Eigen::Vector3d> (shifted.shift.data ()) = -beside;
+    EXPECT_TRUE (foundIn (reconstruct (std::move (shifted), {}).report).isApprox (beside));
     EXPECT_FALSE (meshOf (scanOfCar ({origin, beside}, seed).points).report.is_view);
   }
 }
