@@ -7,19 +7,18 @@
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
 
-#include <atomic>
 #include <map>
 
 namespace pcl::floater {
 namespace {
-// A zone of at least so many points is tried in some places first: it is noise if one in
-// TRIED_SHARE of their points is flawed. Zones of that size in generated bodies, with noise of 0.15
-// spacings or less, had at most one in 37, in noisy scans one in 24 or more: with so many known
-// points around, fewer are found than by isNoise. Four places tell if they have more than one in 24
-// or fewer than one in 48; else four more, up to sixteen. In such noise no necks are looked for: to
-// look for them took 40 % of the time of a cloud from the air, most of it in trees.
-constexpr std::size_t LARGE_ZONE = 2048, TRIED_PLACES = 16, TRIED_AT_ONCE = 4, TRIED_POINTS = 256,
-                      TRIED_SHARE = 30, SURELY_NOISE = 24, SURELY_NONE = 48;
+// A large zone is tried in some places first: it is noise if one in TRIED_SHARE of their points is
+// flawed. Large zones in generated bodies, with noise of 0.15 spacings or less, had at most one in 37, in
+// noisy scans one in 24 or more: with so many known points around, fewer are found than by isNoise. Four
+// places tell if they have more than one in 24 or fewer than one in 48; else four more, up to sixteen. In
+// such noise no necks are looked for: to look for them took 40 % of the time of a cloud from the air, most
+// of it in trees.
+constexpr std::size_t TRIED_PLACES = 16, TRIED_AT_ONCE = 4, TRIED_POINTS = 256, TRIED_SHARE = 30,
+                      SURELY_NOISE = 24, SURELY_NONE = 48;
 
 // Points that are missing where the surface would be, from which on it is a lid on an opening: in the
 // circle on an edge, or in triangles that hang together, each with a circle of more than the radius
@@ -124,7 +123,7 @@ struct ZoneRemaker
   bool looksNoisy (Row zone) const
   {
     std::size_t flawed = 0, tried = 0;
-    for (std::size_t i = 0; i < TRIED_PLACES && zone.size () >= LARGE_ZONE; ++i) {
+    for (std::size_t i = 0; i < TRIED_PLACES && zone.size () >= LARGE_PLACE; ++i) {
       const std::size_t number = i % TRIED_AT_ONCE * TRIED_AT_ONCE + i / TRIED_AT_ONCE; // far apart
       const Index* const first =
           zone.first + number * (zone.size () - TRIED_POINTS) / (TRIED_PLACES - 1);
@@ -257,7 +256,7 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
       });
       if (has_boundary || !is_short)
         made[zone] = remaker.remake (points, is_noise[zone]);
-      if (has_boundary && !made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_ZONE)) {
+      if (has_boundary && !made[zone] && (is_noise[zone] == 0 || points.size () < LARGE_PLACE)) {
         is_left = true;
         if (is_short && !remaker.withComponents (points).empty ())
           is_most_left = true;
@@ -275,15 +274,17 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
       rings = 0;
     TriangleMesh spliced;
     spliced.triangles = spliceZones (mesh, made);
-    std::size_t noisy_points = 0;
+    std::array<std::size_t, 2> noisy_points{}; // of small zones, and of large ones
     for (std::size_t zone = 0; zone < made.size () && !is_short; ++zone) {
       const Row points = zones.points.row (zone);
+      const bool is_large = points.size () >= LARGE_PLACE;
       for (const Index p : points)
-        remade.is_noisy[p] = points.size () >= LARGE_ZONE ? is_noise[zone] : 0;
-      noisy_points += is_noise[zone] * points.size ();
+        remade.is_noisy[p] = is_large ? is_noise[zone] : 0;
+      noisy_points[is_large ? 1 : 0] += is_noise[zone] * points.size ();
     }
-    remade.is_noise = is_short ? remade.is_noise : 4 * noisy_points > positions.size ();
-    if (remade.is_noise && !is_left)
+    const auto areMany = [&] (std::size_t points) { return 4 * points > positions.size (); };
+    remade.is_noise = is_short ? remade.is_noise : areMany (noisy_points[0] + noisy_points[1]);
+    if (areMany (noisy_points[1]) || (remade.is_noise && !is_left))
       break; // narrower zones would be noise as well
     if (std::count (made.begin (), made.end (), std::nullopt) ==
             static_cast<std::ptrdiff_t> (made.size ()) ||

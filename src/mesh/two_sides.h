@@ -34,13 +34,15 @@ struct RemadePlace
   bool is_right = false;  ///< the new triangles are one fan around each free point
 };
 
+constexpr std::size_t LARGE_PLACE = 2048; ///< points
+
 /// Whether points are noise, by the number of the flawed ones of them. Generated bodies with thin
-/// walls and sharp edges had at most one in 25, noisy scans one in 8 to 14.
+/// walls and sharp edges had at most one in 25, noisy scans one in 8 to 14, or in large places 24.
 inline bool
 isNoise (std::size_t flawed, std::size_t points)
 {
-  constexpr std::size_t SHARE = 16, FEW = 16;
-  return flawed > FEW && flawed * SHARE > points;
+  constexpr std::size_t SHARE = 16, SHARE_OF_LARGE = 24, FEW = 16;
+  return flawed > FEW && flawed * (points < LARGE_PLACE ? SHARE : SHARE_OF_LARGE) > points;
 }
 
 /// Makes the triangles of a place from the Delaunay triangulation of its points in space.
