@@ -84,10 +84,10 @@ constexpr double DIMENSION_IF_NOT_NOISY = 2.31, NOT_NOISY = 0.75;
 // region of far ones.
 constexpr double FAR_SPACING = 8.0, AROUND_FAR = 2.0;
 // Share at far points on no surface. Points strewn into a cone have 0.28 to 0.35 on average, coarse
-// walls, terrain and balls with noise of up to 0.3 of their spacings 0.54 or more. Half of the far
-// points of a region must have so little.
+// walls, terrain and balls with noise of up to 0.3 of their spacings 0.54 or more. Points that are far and
+// have so little must have half of the area of a region: a noisy surface that grows coarser has less.
 constexpr double FAR_SHARE = 0.45;
-constexpr std::size_t LEAST_FAR = 10; // far points of a region, so that the half is certain
+constexpr std::size_t LEAST_FAR = 10; // points of a region, so that the half is certain
 
 // Share of the triangles of a star that are in the stars of all their corners.
 float
@@ -199,9 +199,9 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, bool is_certain,
       strewn.is_counted[p] = around <= STRONG_SHARE && unevenness >= UNEVEN ? 1 : 0;
       strewn.value[p] = noise.dimension[p];
     }
-    distant.is_inside[p] = is_distant && around <= STRONG_SHARE ? 1 : 0;
-    distant.is_counted[p] = spacing >= far_away ? 1 : 0;
-    distant.value[p] = around <= FAR_SHARE ? 1.0F : 0.0F;
+    distant.is_inside[p] = distant.is_counted[p] = is_distant && around <= STRONG_SHARE ? 1 : 0;
+    const auto area = static_cast<float> (spacing * spacing / (middle * middle));
+    distant.value[p] = spacing >= far_away && around <= FAR_SHARE ? area : -area;
   });
   Flags is_scatter (n), is_not_noise (n);
   const auto take = [&] (double least_mean, Flags& taken) {
@@ -221,7 +221,7 @@ findScatter (const LocalGeometry& geometry, const Noise& noise, bool is_certain,
       strewn.value[p] += noise.dimension[p] - noise.smaller_dimension[p]; // at the next scale
     take (DIMENSION, is_scatter);
   }
-  takeRegions (geometry.neighbors, distant, LEAST_FAR, 0.5, is_scatter);
+  takeRegions (geometry.neighbors, distant, LEAST_FAR, 0.0, is_scatter);
   return indicesWhere (n, [&] (Index p) { return is_scatter[p] != 0; });
 }
 

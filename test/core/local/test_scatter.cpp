@@ -153,7 +153,8 @@ TEST (Scatter, SurfacesAreNoneHoweverNoisyOrThin)
     EXPECT_TRUE (reportOn (positions, ScatterPolicy::AUTO).scatter.empty ()) << name;
 }
 
-// A few points far behind a ball, ever farther apart, have most of the area; a coarse wall is one.
+// A few points far behind a ball, ever farther apart, have most of the area; a coarse wall is one, and so is a
+// noisy sheet that grows coarser.
 TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
 {
   const Positions ball =
@@ -171,6 +172,13 @@ TEST (Scatter, FarPointsAreUnlessTheyAreASurface)
     EXPECT_GE (report.scatter.size () + report.outliers.size (), 190U);
     EXPECT_TRUE (report.scatter.empty () || report.scatter.front () >= ball.size ());
     EXPECT_TRUE (reportOn (wall, ScatterPolicy::AUTO).scatter.empty ());
+    Positions graded;
+    for (int i = 0; i < 4000; ++i) { // noise of half a spacing
+      const double distance = std::pow (100.0, random.uniform ()),
+                   angle = 2.0 * PI * random.uniform ();
+      graded.push_back (polar (distance, angle, 0.04 * distance * random.normal ()));
+    }
+    EXPECT_TRUE (reportOn (graded, ScatterPolicy::AUTO).scatter.empty ());
   }
 }
 
