@@ -7,7 +7,6 @@
 
 #include <cstdlib>
 #include <map>
-#include <tuple>
 #include <unordered_set>
 
 namespace pcl::floater {

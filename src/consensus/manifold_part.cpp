@@ -9,7 +9,6 @@
 #include "mesh/vertex_stars.h"
 
 #include <set>
-#include <stdexcept>
 
 namespace pcl::floater {
 namespace {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pcl/surface/floater/report.h>
 
-#include <cstddef>
-
 namespace pcl::floater {
 namespace {
 // The name of a value of an enumeration that counts from 0.

@@ -6,7 +6,6 @@
 #include "core/run_context.h"
 
 #include <new>
-#include <stdexcept>
 
 namespace pcl::floater {
 Problem

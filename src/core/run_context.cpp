@@ -3,8 +3,6 @@
 #include "core/run_context.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

@@ -9,7 +9,6 @@
 #include "mesh/vertex_mover.h"
 
 #include <random>
-#include <unordered_map>
 
 namespace pcl::floater {
 namespace {

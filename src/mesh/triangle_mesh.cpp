@@ -8,8 +8,6 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <atomic>
-
 namespace pcl::floater {
 void
 TriangleMesh::fan (Index p, std::vector<Index>& fan_triangles) const

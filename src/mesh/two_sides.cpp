@@ -9,8 +9,6 @@
 #include "mesh/triangle_mesh.h"
 
 #include <map>
-#include <numeric>
-#include <tuple>
 
 namespace pcl::floater {
 namespace {

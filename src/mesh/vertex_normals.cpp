@@ -5,9 +5,6 @@
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 
-#include <stdexcept>
-#include <string>
-
 namespace pcl::floater {
 namespace {
 // Contribution of a triangle to the normal of one of its corners.

@@ -4,8 +4,6 @@
 #include "texture/chart_mesh.h"
 #include "texture/charts.h"
 
-#include <atomic>
-
 namespace pcl::floater {
 namespace {
 // Threshold in radians for the mean outward and the mean inward bend at the edges of a vertex and its

@@ -14,10 +14,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <functional>
-#include <string>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

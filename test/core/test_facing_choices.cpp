@@ -9,9 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <memory>
-#include <string>
 
 namespace pcl::floater {
 namespace {

@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cfenv>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

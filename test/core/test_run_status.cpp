@@ -12,14 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <new>
-#include <set>
-#include <stdexcept>
-#include <thread>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

@@ -13,7 +13,6 @@
 #include <Eigen/SparseCholesky>
 
 #include <queue>
-#include <tuple>
 #include <unordered_map>
 
 namespace pcl::floater {

@@ -10,7 +10,6 @@
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 
 #include <cstdlib>
-#include <mutex>
 #include <new>
 #include <sstream>
 

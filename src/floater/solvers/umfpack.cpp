@@ -10,7 +10,6 @@
 #include <sys/mman.h>
 
 #include <memory>
-#include <mutex>
 #include <new>
 
 namespace pcl::floater {

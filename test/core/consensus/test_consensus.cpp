@@ -12,11 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bitset>
 #include <cstdlib>
 #include <random>
-#include <string>
 
 namespace pcl::floater {
 namespace {

@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <new>
-#include <stdexcept>
-#include <utility>
 
 namespace pcl::floater {
 namespace {

@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

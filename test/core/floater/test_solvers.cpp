@@ -13,10 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <map>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

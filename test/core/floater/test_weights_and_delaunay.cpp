@@ -10,8 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

@@ -12,9 +12,6 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

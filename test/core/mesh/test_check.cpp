@@ -7,11 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

@@ -12,11 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <stdexcept>
-
 namespace pcl::floater {
 namespace {
 using facing_cases::makeBowl;

@@ -8,11 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

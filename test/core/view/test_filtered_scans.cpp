@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;

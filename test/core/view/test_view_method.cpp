@@ -9,10 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <functional>
-#include <limits>
-
 namespace pcl::floater {
 namespace {
 using namespace samples;
