@@ -3,10 +3,9 @@
 // Points on surfaces of known topology, for the tests of whole reconstructions.
 //
 // Unless it says otherwise the unit of length is the mean spacing, so that there is about one point
-// for each unit of area. Points are irregular but even, as in a scan: those of generateSurface(),
-// or darts thrown at random (see throwDarts). Borders and
-// sharp edges have points of their own in steps of one spacing, so that the area of the true
-// surface is that of a good mesh; "ragged" sheets have none.
+// for each unit of area. Points are irregular but even, as in a scan: those of generateSurface(), or darts
+// thrown at random (see throwDarts). Borders and sharp edges have points of their own in steps of one
+// spacing, so that the area of the true surface is that of a good mesh; "ragged" sheets have none.
 #pragma once
 
 #include "samples.h"
@@ -259,6 +258,19 @@ strewnLines (double apart, double height, std::uint64_t seed, double spread = 1.
       const double y = row * apart;
       made.points.emplace_back (x, y, height * std::sin (x / 30.0) * std::cos (y / 35.0));
     }
+  return made;
+}
+
+/// The same with a square window, as wide as so many rows.
+inline KnownSurface
+windowInLines (double apart, int rows)
+{
+  KnownSurface made = strewnLines (apart, 20.0, 1, 0.4);
+  made.loops = 2;
+  const Positions all = std::exchange (made.points, {});
+  for (const Eigen::Vector3d& p : all)
+    if (std::max (std::abs (p.x () - 100.0), std::abs (p.y () - 9.5 * apart)) > 0.5 * rows * apart)
+      made.points.push_back (p);
   return made;
 }
 

@@ -358,6 +358,10 @@ cases ()
       add ("even_lines_" + std::to_string (static_cast<int> (10.0 * apart)) +
                (spread > 0.0 ? "_jittered" : ""),
            [=] { return strewnLines (apart, 20.0, 1, spread); });
+  for (const int apart : {2, 3, 4, 6})
+    for (const int rows : {6, 8, 10})
+      add ("window_of_" + std::to_string (rows) + "_lines_" + std::to_string (apart),
+           [=] { return windowInLines (apart, rows); });
   return all;
 }
 
