@@ -77,7 +77,7 @@ Problem
 checkCurves (const Points& points, const LocalGeometry& geometry, const Request& request)
 {
   const std::optional<double> times =
-      findCurves (points.positions, -points.centre / points.scale, geometry,
+      findCurves (points.positions, points.fromCloud (request.origin), geometry,
                   static_cast<std::size_t> (request.options.neighbors.k), request.run);
   if (!times)
     return {};
@@ -162,17 +162,15 @@ contradictingViewpoint (const Points& points, const Viewpoint& given, const Requ
 
 // Like reconstructView (), for the given viewpoint, or the origin of the sensor if the points are evenly
 // spaced from there; nothing if there is none. Warns if a given one may be wrong.
-// \param unknown where a sensor would be whose place nobody told
 std::optional<Problem>
-reconstructKnownView (const Points& points, const std::array<double, 3>& unknown,
-                      const Request& request, Result& result)
+reconstructKnownView (const Points& points, const Request& request, Result& result)
 {
   const ViewOptions& options = request.options.view;
   const bool is_given = options.use == ViewUse::GIVEN;
   const bool is_told = isSensorKnown (request.sensor_origin);
   Viewpoint viewpoint{points.fromCloud (is_given  ? options.viewpoint
                                         : is_told ? request.sensor_origin
-                                                  : unknown)};
+                                                  : request.origin)};
   std::optional<Viewpoint> other;
   if (is_given)
     other = contradictingViewpoint (points, viewpoint, request);
@@ -325,8 +323,7 @@ reconstructAny (Input& input, const Request& request, KnownStages* known, Result
     return problem;
 
   if (mayBeSeen (options))
-    if (const std::optional<Problem> problem = reconstructKnownView (
-            points, {-input.shift[0], -input.shift[1], -input.shift[2]}, request, result))
+    if (const std::optional<Problem> problem = reconstructKnownView (points, request, result))
       return *problem;
   return reconstructByNeighbors (points, input.search, request, known, result);
 }
@@ -345,8 +342,9 @@ reconstruct (Input input, const Options& options, const Limits& limits, KnownSta
         result.report.statistics, asksForDisc (effective));
     const RunContext context (options.threads, &monitor);
     const bool has_plane_normals = !input.normals.empty ();
-    problem =
-        reconstructAny (input, {effective, limits, context, input.sensor_origin}, known, result);
+    const auto [x, y, z] = input.shift;
+    const Request request{effective, limits, context, input.sensor_origin, {-x, -y, -z}};
+    problem = reconstructAny (input, request, known, result);
     describeFindings (result.report);
     if (!problem) {
       for (std::string& unused : describeUnusedOptions (options, result.report, has_plane_normals))

@@ -20,6 +20,7 @@ struct Request
   const Limits& limits;
   const RunContext& run;
   std::array<double, 3> sensor_origin{}; ///< as in Input
+  std::array<double, 3> origin{};        ///< where it was before Input::shift
 };
 
 /// Whether folds and self-intersections are repaired.
