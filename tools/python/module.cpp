@@ -18,7 +18,6 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <numeric>
 
 namespace py = pybind11;
 using namespace py::literals;

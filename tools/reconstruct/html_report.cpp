@@ -18,7 +18,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <numeric>
 #include <unordered_map>
 
 namespace pcl::floater {
