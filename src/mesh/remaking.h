@@ -25,8 +25,9 @@ struct RemadeZones
 /// at which its new triangles do not fit to those around. It stays as it was if its new triangles
 /// fit nowhere, have a lid on an opening, or not clearly fewer faults (see PieceInPlace), or if the
 /// sides of pieces of the mesh contradict each other; also if it is large and some places in it are
-/// noise (see isNoise). One that is left with faults and is most of its components is tried once more with all
-/// of them: what is around may be wrong, too.
+/// noise (see isNoise). If such zones have more than a quarter of the points, no narrower ones are tried. One
+/// that is left with faults and is most of its components is tried once more with all of them: what is
+/// around may be wrong, too.
 /// A zone may have more handles than before: true ones, such as holes through a plate, are often
 /// missing there, and cutNecks () cuts false ones. Components may come out with either side as the
 /// front. Points of new components by themselves are left without a triangle. O(n), plus some 60

@@ -76,7 +76,7 @@ scanOfCar (const std::vector<Eigen::Vector3d>& places, std::uint64_t seed,
   return castRays (scene, rays, {0.002, 0.0}, random);
 }
 
-// The origin is tried first, and taken as it is; after a shift, what was the origin.
+// The origin is tried first, and taken as it is; after a shift, the place that was the origin.
 TEST (Recognition, ASensorInTheOriginIsToldFromOneBesideIt)
 {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero (), beside (0.3, 1.0, -0.2);

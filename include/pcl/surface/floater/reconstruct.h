@@ -60,7 +60,7 @@ struct Input
   std::vector<Eigen::Vector3f> facing_normals{};
 
   /// Was subtracted from all coordinates before: points that stand for no measurement, such as
-  /// (0, 0, 0), are recognized by what they were, and a sensor nobody told is looked for there.
+  /// (0, 0, 0), are recognized by what they were. The origin before is a likely place of the sensor.
   std::array<double, 3> shift{};
 };
 
