@@ -20,11 +20,8 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 namespace {
 using Positions = std::vector<Eigen::Vector3d>;

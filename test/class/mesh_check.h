@@ -13,12 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <set>
-#include <string>
-#include <vector>
-
 namespace pcl::floater {
 constexpr std::uint64_t SEED = 385; ///< of all clouds of these tests
 

@@ -10,10 +10,6 @@
 #include <pcl/search/octree.h>
 #include <pcl/surface/floater_mesh_construction.h>
 
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
 #include <thread>
 #include <type_traits>
 

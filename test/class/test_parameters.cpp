@@ -4,9 +4,6 @@
 // are refused.
 #include "mesh_check.h"
 
-#include <cmath>
-#include <functional>
-
 namespace pcl::floater {
 namespace {
 using Class = pcl::FloaterReconstruction<pcl::PointXYZ>;

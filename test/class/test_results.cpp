@@ -12,10 +12,6 @@
 #include <pcl/surface/floater_mesh_construction.h>
 #include <pcl/surface/gp3.h>
 
-#include <cmath>
-#include <limits>
-#include <numeric>
-
 namespace pcl::floater {
 namespace {
 using Class = pcl::FloaterReconstruction<pcl::PointXYZ>;

@@ -6,11 +6,8 @@
 
 #include <pcl/surface/floater/reconstruct.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 
 namespace pcl::floater::fuzz {
 /// Takes numbers from the front of some bytes; zeros after their end.

@@ -8,11 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <vector>
 
 namespace pcl::floater::fuzz {
 namespace {

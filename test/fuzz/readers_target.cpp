@@ -4,12 +4,8 @@
 // table: text with a point in each line. A file is either a cloud or a ReadError with a message.
 #include "cloud_reader.h"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace pcl::floater {
 namespace {

@@ -6,12 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <set>
-
 namespace pcl::floater::fuzz {
 namespace {
 std::string

@@ -10,10 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cerrno>
-#include <cmath>
-#include <cstdlib>
 
 // The functions of glibc under the names that stay when they are replaced.
 extern "C" {

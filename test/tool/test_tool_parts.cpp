@@ -11,15 +11,11 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <new>
 #include <numeric>
 #include <thread>
-#include <vector>
 
 namespace pcl::floater {
 namespace {
