@@ -3,7 +3,6 @@
 #include "consensus/consensus_method.h"
 
 #include "core/parallel.h"
-#include "mesh/crossed_fillings.h"
 #include "mesh/hole_filling.h"
 
 #include <map>
@@ -125,70 +124,11 @@ leaveOutClosed (const TriangleMesh& mesh, std::vector<BoundaryLoop>& loops)
   loops.erase (std::remove_if (loops.begin (), loops.end (), isClosed), loops.end ());
 }
 
-// Whether more than a quarter of the points are noisy, as in remakeZones ().
-bool
-isNoise (const Points& points)
-{
-  std::size_t moved = 0;
-  for (std::size_t p = 0; p < points.projected.size (); ++p)
-    moved += points.projected[p] != points.positions[p] ? 1 : 0;
-  return 4 * moved > points.size ();
-}
-
-// Finishes a mesh with filled loops. Where making zones anew does not cure what fillings cross, begins
-// again with others.
-void
-finishSurface (Surface& surface, const Points& points, LocalGeometry& geometry, HolePolicy policy,
-               FinishSettings finish, const std::optional<CrossedFillings>& crossed,
-               std::vector<BoundaryLoop>& loops, const RunContext& run)
-{
-  finish.open_boundary = true;
-  finish.remake_sheets = finish.repair;
-  finish.are_points_added = !points.stacked.of.empty ();
-  finish.closes_gaps = policy == HolePolicy::AUTO || policy == HolePolicy::CLOSE_ALL;
-  TriangleMesh other;
-  Normals normals;
-  // Makes the other mesh, in which crossed loops at chosen points have other fillings or none.
-  const auto replace = [&] (const Flags& is_chosen) {
-    std::vector<BoundaryLoop> changed = loops;
-    other.triangles = crossed->replaced (is_chosen, policy == HolePolicy::AUTO, changed);
-    if (other.triangles.empty () || !other.connect (points.size (), run))
-      return false;
-    loops = std::move (changed);
-    return true;
-  };
-  if (crossed && !crossed->empty ()) {
-    if (isNoise (points)) { // hardly any zone is made anew, and other fillings would be asked for
-      if (replace (Flags (points.size (), 1)))
-        surface.mesh = std::exchange (other, {});
-    }
-    else {
-      normals = geometry.stars.normals;
-      finish.gives_up = [&] (const TriangleMesh& made, const CrossingPairs& pairs) {
-        Flags is_crossing (points.size (), 0);
-        for (const CrossingPair& pair : pairs)
-          for (const Index t : {pair.first, pair.second})
-            for (const Index p : made.triangles[t])
-              is_crossing[p] = 1;
-        return replace (is_crossing);
-      };
-    }
-  }
-  surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
-  if (!surface.finish.gave_up)
-    return;
-  finish.gives_up = {};
-  finish.is_noise = surface.finish.remade.is_noise;
-  surface.mesh = std::move (other);
-  geometry.stars.normals = std::move (normals);
-  surface.finish = finishMesh (surface.mesh, points.positions, geometry, finish, run);
-}
-
 } // namespace
 
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& holes,
-             const FinishSettings& finish, const RunContext& run)
+             FinishSettings finish, const RunContext& run)
 {
   const Positions& positions = points.workingPositions ();
   Surface surface;
@@ -198,16 +138,30 @@ makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& h
 
   run.beginStage (Stage::HOLES);
   std::vector<BoundaryLoop> loops = chooseLoops (mesh, points, geometry, holes, run);
-  const TriangleCost cost (positions, geometry.stars.normals);
   const std::size_t before = mesh.triangles.size ();
-  fillHoles (mesh, loops, positions, cost, run);
+  fillHoles (mesh, loops, positions, TriangleCost (positions, geometry.stars.normals), run);
   orientMissingNormals (mesh, geometry.neighbors, geometry.stars.normals, run);
-  std::optional<CrossedFillings> crossed;
-  if (finish.repair)
-    crossed.emplace (mesh, before, loops, positions, cost, run);
 
   run.beginStage (Stage::FLIPS);
-  finishSurface (surface, points, geometry, holes.policy, finish, crossed, loops, run);
+  finish.open_boundary = true;
+  finish.remake_sheets = finish.repair;
+  finish.are_points_added = !points.stacked.of.empty ();
+  finish.closes_gaps = holes.policy == HolePolicy::AUTO || holes.policy == HolePolicy::CLOSE_ALL;
+  if (finish.repair && mesh.triangles.size () > before)
+    finish.other = [&, filled = mesh.triangles] (Flags& is_chosen) {
+      return refillCrossed (filled, before, loops, is_chosen, holes.policy == HolePolicy::AUTO,
+                            positions, TriangleCost (positions, geometry.stars.normals), run);
+    };
+  const std::vector<Index> noisy = indicesWhere (points.projected.size (), [&] (Index p) {
+    return points.projected[p] != points.positions[p];
+  });
+  if (finish.other && 4 * noisy.size () > points.size ()) { // hardly any zone is made anew
+    Flags is_chosen (points.size (), 1);
+    if (TriangleMesh other = finish.other (is_chosen); !other.triangles.empty ())
+      mesh = std::move (other);
+    finish.other = {};
+  }
+  surface.finish = finishMesh (mesh, points.positions, geometry, finish, run);
   for (BoundaryLoop& loop : loops) {
     surface.holes_filled += loop.keep_open ? 0 : 1;
     if (isDoubtful (loop.judgement))

@@ -31,6 +31,6 @@ struct Surface
 ///     several sheets are near
 Surface
 makeSurface (const Points& points, LocalGeometry& geometry, const HoleOptions& holes,
-             const FinishSettings& finish, const RunContext& run);
+             FinishSettings finish, const RunContext& run);
 
 } // namespace pcl::floater

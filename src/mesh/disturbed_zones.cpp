@@ -5,8 +5,6 @@
 #include "core/disjoint_sets.h"
 #include "core/parallel.h"
 
-#include <map>
-#include <set>
 #include <unordered_map>
 
 namespace pcl::floater {
@@ -44,6 +42,7 @@ struct ZoneFinder
   const LocalGeometry& geometry;
   GapParts gaps;
   bool closes_gaps;
+  const Flags& is_settled;
   const RunContext& run;
   std::vector<std::vector<Index>> loops = {};
   std::vector<double> lengths = {}; // of the loops
@@ -74,7 +73,7 @@ struct ZoneFinder
         zones.is_boundary[p] = is_disturbed[p] == 0 ? 1 : 0;
       }
     for (Index p = 0; p < positions.size (); ++p)
-      if (is_disturbed[p] != 0)
+      if (is_disturbed[p] != 0 && (is_settled.empty () || is_settled[p] == 0))
         makeFree (p);
     std::size_t first = 0;
     for (int ring = 0; ring < rings; ++ring)
@@ -298,20 +297,19 @@ struct ZoneFinder
         if (isFree (q))
           sets.join (p, q);
     }
-    std::set<Index> wrong;
+    Flags is_zone (positions.size (), 0); // of the first points of sets
     for (const Index p : free)
       if (is_wrong[p] != 0)
-        wrong.insert (sets.find (p));
-    std::map<Index, Index> zone_of;
+        is_zone[sets.find (p)] = 1;
+    const std::vector<Index> zone_of =
+        std::move (sets).number ([&] (Index p) { return is_zone[p] != 0; });
     for (const Index p : free)
-      if (wrong.count (sets.find (p)) == 0)
-        zones.is_free[p] = 0;
-      else
-        zone_of.emplace (sets.find (p), static_cast<Index> (zone_of.size ()));
-    zones.points = makeCsrLists (zone_of.size (), [&] (const auto& emit) {
+      zones.is_free[p] = zone_of[p] != NONE ? 1 : 0;
+    const auto count = std::count (is_zone.begin (), is_zone.end (), 1);
+    zones.points = makeCsrLists (static_cast<std::size_t> (count), [&] (const auto& emit) {
       for (const Index p : free)
         if (isFree (p))
-          emit (zone_of.at (sets.find (p)), p);
+          emit (zone_of[p], p);
     });
   }
 };
@@ -321,9 +319,11 @@ struct ZoneFinder
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
                     const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
-                    int rings, GapParts gaps, bool closes_gaps, const RunContext& run)
+                    int rings, GapParts gaps, bool closes_gaps, const Flags& is_settled,
+                    const RunContext& run)
 {
-  return ZoneFinder{mesh, positions, geometry, gaps, closes_gaps, run}.find (crossing, rings);
+  return ZoneFinder{mesh, positions, geometry, gaps, closes_gaps, is_settled, run}.find (crossing,
+                                                                                         rings);
 }
 
 } // namespace pcl::floater

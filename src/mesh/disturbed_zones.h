@@ -38,9 +38,11 @@ struct DisturbedZones
 /// \param rings     width of a zone around what is disturbed
 /// \param gaps      what of a loop is a gap
 /// \param closes_gaps false: no boundary loop counts as a gap
+/// \param is_settled  of each point: nothing there counts as wrong; or empty
 DisturbedZones
 findDisturbedZones (const TriangleMesh& mesh, const Positions& positions,
                     const LocalGeometry& geometry, const std::vector<CrossingPair>& crossing,
-                    int rings, GapParts gaps, bool closes_gaps, const RunContext& run);
+                    int rings, GapParts gaps, bool closes_gaps, const Flags& is_settled,
+                    const RunContext& run);
 
 } // namespace pcl::floater

@@ -19,14 +19,14 @@ struct FinishSettings
   double largest_fold_share = std::numeric_limits<double>::infinity ();
   RepairLimits limits = {}; ///< of the repair
   FacingHints facing = {};
-  /// Asked with all crossing pairs that are left: whether to stop there, since the caller begins with
-  /// another mesh. In noise, it is asked before the repair, which takes most of the time.
-  std::function<bool (const TriangleMesh&, const CrossingPairs&)> gives_up = {};
+  /// Asked once, if triangles cross that cannot be cured: another mesh of the same points, to be taken at
+  /// chosen points. Chosen are the corners of the pairs; then those at which the other one differs. Without
+  /// triangles, there is none. In noise, it is asked before the repair, which takes most of the time.
+  std::function<TriangleMesh (Flags& is_chosen)> other = {};
   bool add_points = true;        ///< add points that have no triangle (see addMissingPoints)
   bool repair = false;           ///< repair flaws (see repairFlaws), and set MeshFinish::crossing
   bool remake_sheets = false;    ///< then make disturbed zones anew in space
   bool closes_gaps = true;       ///< boundary loops that are gaps between sheets may be closed then
-  bool is_noise = false;         ///< known to be so, see RemadeZones: none is made anew
   bool are_points_added = false; ///< leave the last repair to the caller, who adds points first
   bool open_boundary = false;    ///< remove triangles that fill notches of the boundary, or fold it
 };
@@ -35,7 +35,6 @@ struct FinishSettings
 struct MeshFinish
 {
   std::size_t flips = 0;
-  bool gave_up = false;        ///< the mesh is not finished, see FinishSettings::gives_up
   std::size_t folds = 0;       ///< folded edges after the flips, before the repair
   bool is_repairable = true;   ///< false: more folds than FinishSettings::largest_fold_share
   std::size_t necks_cut = 0;   ///< necks that the points do not support

@@ -350,7 +350,8 @@ struct FlawRepair
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
              const TriangleCost& cost, const Positions& positions, Repair repair,
-             const Ridges& ridges, const RepairLimits& limits, const RunContext& run)
+             const Ridges& ridges, const Flags& is_settled, const RepairLimits& limits,
+             const RunContext& run)
 {
   if (!crossing.untested.empty ())
     return {};
@@ -364,6 +365,10 @@ repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighb
   CrossingTable table (mesh, positions, crossing, run);
   VertexMover mover (mesh, positions, neighbors, cost, run);
   FlawRepair search{mesh, repair, ridges, limits, run, std::move (is_flawed), table, mover};
+  if (!is_settled.empty ())
+    for (Index t = 0; t < mesh.triangles.size (); ++t)
+      if (!anyCorner (mesh.triangles[t], [&] (Index p) { return is_settled[p] == 0; }))
+        search.changed_in[t] = 0;
   const Repairs done = search.repairAll ();
   if (done.hasChanged ())
     crossing = table.pairs ();

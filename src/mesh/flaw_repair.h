@@ -71,9 +71,11 @@ struct Repairs
 /// \param[in,out] crossing all pairs of the mesh (see findSelfIntersections)
 /// \param neighbors nearest neighbours of each point, candidates for a vertex's new neighbours
 /// \param ridges    edges that count neither as folded nor as bad
+/// \param is_settled of each point: nothing is tried there unless something around changes; or empty
 Repairs
 repairFlaws (TriangleMesh& mesh, CrossingPairs& crossing, const CsrLists& neighbors,
              const TriangleCost& cost, const Positions& positions, Repair repair,
-             const Ridges& ridges, const RepairLimits& limits, const RunContext& run);
+             const Ridges& ridges, const Flags& is_settled, const RepairLimits& limits,
+             const RunContext& run);
 
 } // namespace pcl::floater

@@ -3,6 +3,8 @@
 #include "mesh/hole_filling.h"
 
 #include "core/parallel.h"
+#include "mesh/box_tree.h"
+#include "mesh/self_intersections.h"
 
 #include <set>
 
@@ -96,6 +98,42 @@ fillLoop (const BoundaryLoop& loop, const TriangleMesh& mesh, const Positions& p
   return triangles;
 }
 
+// Whether triangles cross those of a mesh that are in a tree. Each loop has a copy of its own.
+struct Obstacles
+{
+  const std::vector<Triangle>& triangles;
+  const Positions& positions;
+  const BoxTree& tree;
+  const std::vector<Index>& loop_of;   // of each point, or NONE
+  std::vector<std::size_t> found = {}; // the latest first
+
+  bool cross (const Triangle& triangle, bool at_no_loop = false)
+  {
+    const Eigen::AlignedBox3d box = boxOf (triangle, positions);
+    const auto isInTheWay = [&] (std::size_t t) {
+      const Triangle& other = triangles[t];
+      return box.intersects (boxOf (other, positions)) &&
+             !(at_no_loop && anyCorner (other, [&] (Index p) { return loop_of[p] != NONE; })) &&
+             doCross (triangle, other, positions);
+    };
+    const auto again = std::find_if (found.begin (), found.end (), isInTheWay);
+    if (again != found.end ()) {
+      std::rotate (found.begin (), again, again + 1);
+      return true;
+    }
+    return tree.forOverlaps (box, [&] (std::size_t t) {
+      if (!isInTheWay (t))
+        return false;
+      found.resize (std::min (found.size (), KEPT - 1));
+      found.insert (found.begin (), t);
+      return true;
+    });
+  }
+
+  // The triangles of a loop have mostly the same ones in their way.
+  static constexpr std::size_t KEPT = 16;
+};
+
 } // namespace
 
 std::size_t
@@ -122,6 +160,60 @@ fillHoles (TriangleMesh& mesh, std::vector<BoundaryLoop>& loops, const Positions
   if (filled > 0 && !mesh.connect (positions.size (), run))
     throw std::logic_error ("a hole was filled by triangles that do not fit");
   return filled;
+}
+
+TriangleMesh
+refillCrossed (const std::vector<Triangle>& filled, std::size_t before,
+               std::vector<BoundaryLoop>& loops, Flags& is_chosen, bool may_stay_open,
+               const Positions& positions, const TriangleCost& cost, const RunContext& run)
+{
+  std::vector<Index> loop_of (positions.size (), NONE);
+  Flags is_asked (loops.size (), 0), is_pierced = is_asked, is_kept = is_asked;
+  for (Index i = 0; i < loops.size (); ++i)
+    for (const Index p : loops[i].points) {
+      loop_of[p] = i;
+      is_asked[i] |= is_chosen[p];
+    }
+  const BoxTree tree (
+      before, [&] (std::size_t t) { return boxOf (filled[t], positions); }, run);
+  Obstacles obstacles{filled, positions, tree, loop_of};
+  std::vector<BoundaryLoop> crossed = loops;
+  for (BoundaryLoop& loop : crossed)
+    loop.keep_open = true;
+  for (std::size_t t = before; t < filled.size (); ++t) {
+    run.poll ();
+    const Index i = loop_of[filled[t][0]];
+    if (is_asked[i] == 0 || !obstacles.cross (filled[t]))
+      continue;
+    crossed[i].keep_open = false;
+    if (is_pierced[i] == 0 && obstacles.cross (filled[t], true))
+      is_pierced[i] = 1;
+  }
+  for (std::size_t i = 0; i < loops.size (); ++i)
+    is_asked[i] = crossed[i].keep_open ? 0 : 1;
+  // The mesh with the first fillings of chosen loops, or of those that are not.
+  TriangleMesh mesh;
+  mesh.triangles.assign (filled.begin (), filled.begin () + static_cast<std::ptrdiff_t> (before));
+  const auto addFirst = [&] (const Flags& of_loop, std::uint8_t value) {
+    for (std::size_t t = before; t < filled.size (); ++t)
+      if (of_loop[loop_of[filled[t][0]]] == value)
+        mesh.triangles.push_back (filled[t]);
+    return mesh.connect (positions.size (), run);
+  };
+  addFirst (is_asked, 0);
+  fillHoles (mesh, crossed, positions, cost, run,
+             [obstacles] (const Triangle& t) mutable { return !obstacles.cross (t); });
+  for (std::size_t i = 0; i < loops.size (); ++i) {
+    if (is_asked[i] == 0)
+      continue;
+    is_kept[i] = crossed[i].keep_open && !(may_stay_open && is_pierced[i] != 0) ? 1 : 0;
+    is_asked[i] -= is_kept[i];
+    loops[i].keep_open = loops[i].judgement.is_too_deep = is_asked[i] != 0 && crossed[i].keep_open;
+  }
+  for (std::size_t p = 0; p < is_chosen.size (); ++p)
+    is_chosen[p] = loop_of[p] != NONE ? is_asked[loop_of[p]] : 0;
+  const bool is_other = std::find (is_asked.begin (), is_asked.end (), 1) != is_asked.end ();
+  return is_other && addFirst (is_kept, 1) ? mesh : TriangleMesh ();
 }
 
 } // namespace pcl::floater

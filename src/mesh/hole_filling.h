@@ -123,4 +123,19 @@ fillHoles (
     const TriangleCost& cost, const RunContext& run,
     const std::function<bool (const Triangle&)>& fits = [] (const Triangle&) { return true; });
 
+/// Fills loops whose fillings cross the mesh by triangles of least cost that do not: a gap between sheets is no
+/// place for another one. A loop without such a filling is left open if it may be, and if some of what it
+/// crosses is at no loop. (Where two loops are linked, each has only the other's surroundings in its way.)
+/// O(n), plus some microseconds for each of the m^2 edges in a loop of m points that is crossed.
+/// \param filled the mesh with its fillings, which are its last triangles
+/// \param before number of triangles before they came
+/// \param[in,out] loops of the mesh before. keep_open and LoopJudgement::is_too_deep are set for those that are
+///     left open
+/// \param[in,out] is_chosen of each point: a loop there may change; then: it has changed
+/// \return the mesh with these fillings; without triangles if there are none
+TriangleMesh
+refillCrossed (const std::vector<Triangle>& filled, std::size_t before,
+               std::vector<BoundaryLoop>& loops, Flags& is_chosen, bool may_stay_open,
+               const Positions& positions, const TriangleCost& cost, const RunContext& run);
+
 } // namespace pcl::floater

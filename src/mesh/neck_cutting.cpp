@@ -81,7 +81,6 @@ public:
     Replacement best;
     if (!before_.connect (points_.size (), run_, &is_rim_) || !markSides ())
       return best;
-    const std::set<Triangle> all_before = sorted (before_);
     const double crossings_before = crossingCost (before_);
     const std::multiset<Edge> rim = rimEdges (before_);
     for (const std::uint8_t sides : {BOTH, LEFT, RIGHT}) {
@@ -93,8 +92,8 @@ public:
           rimEdges (after) != rim)
         continue;
       double size_before = 0.0, size = 0.0;
-      const double cost_before = bending (before_, sorted (after), size_before) + crossings_before;
-      double cost = bending (after, all_before, size);
+      const double cost_before = bending (before_, after, size_before) + crossings_before;
+      double cost = bending (after, before_, size);
       const double most =
           std::min (best.cost_left, size > size_before ? most_left_ : 1.0) * cost_before;
       if (cost < most) // else crossings are not looked for
@@ -202,33 +201,19 @@ private:
     return edges;
   }
 
-  static Triangle fromSmallest (Triangle t)
-  {
-    std::rotate (t.begin (), std::min_element (t.begin (), t.end ()), t.end ());
-    return t;
-  }
-
-  static std::set<Triangle> sorted (const TriangleMesh& mesh)
-  {
-    std::set<Triangle> triangles;
-    for (const Triangle& t : mesh.triangles)
-      triangles.insert (fromSmallest (t));
-    return triangles;
-  }
-
   // How much the mesh is bent where another one has other triangles: the angles between triangles, times
   // the lengths of their edges. Edges along the axis count little: they make the neck round, and a
   // long thin limb would have more of them than two caps. Planes of points are not asked: near a false
   // neck, they are those of no sheet.
   // \param size out: the mean area of these triangles, doubled
-  double bending (const TriangleMesh& mesh, const std::set<Triangle>& other, double& size) const
+  double bending (const TriangleMesh& mesh, const TriangleMesh& other, double& size) const
   {
     Flags is_common;
     std::vector<Vector3d> normals;
     normals.reserve (mesh.triangles.size ());
     std::size_t changed = 0;
     for (const Triangle& t : mesh.triangles) {
-      is_common.push_back (other.count (fromSmallest (t)) > 0 ? 1 : 0);
+      is_common.push_back (other.triangleWith (t) != NONE ? 1 : 0);
       const Vector3d area = areaVectorOf (t, positions_);
       normals.push_back (area.normalized ());
       if (is_common.back () == 0)

@@ -239,8 +239,8 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
   bool has_changed = false;
   for (GapParts gaps = GapParts::WHOLE_LOOP; rings > 0;) {
     const bool is_short = gaps == GapParts::SHORT_PARTS;
-    const DisturbedZones zones =
-        findDisturbedZones (mesh, positions, geometry, crossing, rings, gaps, closes_gaps, run);
+    const DisturbedZones zones = findDisturbedZones (mesh, positions, geometry, crossing, rings,
+                                                     gaps, closes_gaps, remade.is_settled, run);
     std::vector<std::optional<NewZone>> made (zones.points.rows ());
     Flags is_noise (made.size (), 0);
     if (made.empty ())

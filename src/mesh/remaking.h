@@ -9,8 +9,9 @@ namespace pcl::floater {
 /// What remakeZones () has done.
 struct RemadeZones
 {
-  Flags is_remade; ///< of each point: its triangles were made anew; or empty
-  Flags is_noisy;  ///< of each point: the last zone with it was noise, and a large one; or empty
+  Flags is_remade;  ///< of each point: its triangles were made anew; or empty
+  Flags is_noisy;   ///< of each point: the last zone with it was noise, and a large one; or empty
+  Flags is_settled; ///< of each point: it is not made anew; or empty
   bool is_noise = false; ///< more than a quarter of the points are in zones that are noise
 
   std::size_t points () const

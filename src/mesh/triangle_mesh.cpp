@@ -57,6 +57,16 @@ TriangleMesh::hasEdge (Index p, Index q) const
   return false;
 }
 
+Index
+TriangleMesh::triangleWith (const Triangle& corners) const
+{
+  for (const Index p : corners) // each may have several fans, see connect ()
+    for (FanWalk walk{*this, p}; walk.triangle != NONE; walk.advance ())
+      if (std::is_permutation (corners.begin (), corners.end (), triangles[walk.triangle].begin ()))
+        return walk.triangle;
+  return NONE;
+}
+
 void
 TriangleMesh::undo (std::size_t mark)
 {

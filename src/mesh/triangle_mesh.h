@@ -91,6 +91,9 @@ struct TriangleMesh
   /// O(triangles around p).
   bool hasEdge (Index p, Index q) const;
 
+  /// The triangle with these corners in any order, or NONE. O(triangles around them).
+  Index triangleWith (const Triangle& corners) const;
+
   /// Replaces the edge by the other diagonal of its two triangles. It must not be a boundary edge,
   /// and the other diagonal must not be an edge yet. Afterwards triangle e.triangle has the corners
   /// (corner, from, opposite) and the other one (opposite, to, corner), in names before the flip;

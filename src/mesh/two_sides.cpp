@@ -8,8 +8,6 @@
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"
 
-#include <map>
-
 namespace pcl::floater {
 namespace {
 // Sets of tetrahedra on the same or on opposite sides: disjoint sets with parity, whose last step
@@ -263,7 +261,7 @@ struct PlaceInSpace
   // outside.
   void decide (Flags& is_turned)
   {
-    std::map<Index, std::array<std::size_t, 2>> votes;
+    std::vector<std::array<std::size_t, 2>> votes (all.size ()); // of each set, by its root
     for (std::size_t i = 0; i < place.frame.size (); ++i)
       if (const Index front = front_of_patch[place.patch_of[i]]; front != NONE) {
         const Side side = sides.of (front);
@@ -272,13 +270,12 @@ struct PlaceInSpace
     for (Index t = 0; t < all.size (); ++t)
       if (all.isInfinite (t)) {
         const Side side = sides.of (t);
-        const auto [at, is_new] = votes.try_emplace (side.root);
-        if (is_new)
-          ++at->second[side.flipped ? 1 : 0];
+        if (auto& vote = votes[side.root]; vote[0] + vote[1] == 0)
+          ++vote[side.flipped ? 1 : 0];
       }
     const auto isFront = [&votes] (const Side& side) {
-      const auto at = votes.find (side.root);
-      return at != votes.end () && (at->second[1] > at->second[0]) == side.flipped;
+      const auto& vote = votes[side.root];
+      return vote[0] + vote[1] > 0 && (vote[1] > vote[0]) == side.flipped;
     };
     is_behind.resize (all.size ());
     for (Index t = 0; t < all.size (); ++t)

@@ -127,6 +127,63 @@ spliceZones (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made
   return triangles;
 }
 
+std::vector<std::optional<NewZone>>
+placesOf (const TriangleMesh& other, const TriangleMesh& mesh, Flags& is_chosen)
+{
+  std::vector<Index> same; // of each triangle of the other mesh
+  DisjointSets sets (is_chosen.size ());
+  Flags is_changed (is_chosen.size (), 0), is_taken = is_changed;
+  const auto join = [&sets] (const Triangle& t) {
+    sets.join (t[0], t[1]);
+    sets.join (t[1], t[2]);
+  };
+  const auto change = [&] (const Triangle& t) {
+    join (t);
+    is_changed[t[0]] = is_changed[t[1]] = is_changed[t[2]] = 1;
+  };
+  Flags stays (mesh.triangles.size (), 0);
+  for (const Triangle& t : other.triangles)
+    if (same.push_back (mesh.triangleWith (t)); same.back () != NONE)
+      stays[same.back ()] = 1;
+    else
+      change (t);
+  for (Index t = 0; t < stays.size (); ++t)
+    if (stays[t] == 0)
+      change (mesh.triangles[t]);
+  for (Index p = 0; p < is_chosen.size (); ++p)
+    if (is_chosen[p] != 0)
+      is_taken[sets.find (p)] = 1;
+  for (Index p = 0; p < is_chosen.size (); ++p)
+    is_chosen[p] = is_changed[p] & is_taken[sets.find (p)];
+  // Places whose triangles have a common corner are one zone.
+  const auto isTaken = [&] (Index p) { return is_chosen[p] != 0; };
+  for (const TriangleMesh* const one : {&mesh, &other})
+    for (const Triangle& t : one->triangles)
+      if (anyCorner (t, isTaken))
+        join (t);
+  std::map<Index, NewZone> zone_of;
+  for (Index p = 0; p < is_chosen.size (); ++p)
+    if (isTaken (p))
+      zone_of[sets.find (p)].points.push_back (p);
+  for (Index i = 0; i < same.size (); ++i) {
+    const Triangle& t = other.triangles[i];
+    if (!anyCorner (t, isTaken))
+      continue;
+    NewZone& zone = zone_of[sets.find (t[0])];
+    zone.triangles.push_back (t);
+    if (same[i] == NONE)
+      continue;
+    const Triangle& s = mesh.triangles[same[i]];
+    for (const Index u : mesh.neighbors[same[i]])
+      if (u != NONE && !anyCorner (mesh.triangles[u], isTaken))
+        zone.patches.emplace_back (u, s[(mesh.sideOf (same[i], t[0]) + 1U) % 3] != t[1]);
+  }
+  std::vector<std::optional<NewZone>> zones;
+  for (auto& [first, zone] : zone_of)
+    zones.emplace_back (std::move (zone));
+  return zones;
+}
+
 PlaceOfMesh
 placeOf (Row free, const TriangleMesh& mesh, const Positions& positions, const CsrLists& neighbors,
          const DisturbedZones& zones)

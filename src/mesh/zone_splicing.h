@@ -22,6 +22,12 @@ struct NewZone
 std::vector<Triangle>
 spliceZones (const TriangleMesh& mesh, std::vector<std::optional<NewZone>>& made);
 
+/// What another mesh of the same points has at chosen points, as zones of a mesh. Triangles that only one of the
+/// two has, and that are connected by corners, come and go together. O(n).
+/// \param[in,out] is_chosen of each point; then: it is in a zone
+std::vector<std::optional<NewZone>>
+placesOf (const TriangleMesh& other, const TriangleMesh& mesh, Flags& is_chosen);
+
 /// A place, and what it is of the mesh.
 struct PlaceOfMesh
 {

@@ -77,10 +77,12 @@ struct Sheets : TwoSheets
   }
 
   // Expects two discs of all points, and what is told of the pairs that are left.
-  Repairs repair (const RepairLimits& limits = {}, Repair when = Repair::BEFORE_REMAKING)
+  Repairs repair (const RepairLimits& limits = {}, Repair when = Repair::BEFORE_REMAKING,
+                  const Flags& is_settled = {})
   {
     CrossingPairs pairs = crossing ();
-    const Repairs done = repairFlaws (mesh, pairs, neighbors, cost, positions, when, {}, limits, 1);
+    const Repairs done =
+        repairFlaws (mesh, pairs, neighbors, cost, positions, when, {}, is_settled, limits, 1);
     EXPECT_EQ (pairs, crossing ());
     expectConsistent (mesh);
     expectTopology (mesh.triangles, positions.size (), 2, 2, 2);
@@ -159,6 +161,8 @@ TEST (FlawRepair, RemovesTrianglesThatCrossByMovesAndChangesNothingElse)
     exchange (sheets.mesh, p, p + SHEET_POINTS);
   EXPECT_GE (sheets.crossing ().size (), 4U);
   const MeshTopology before = topologyOf (sheets.mesh.triangles);
+  const Flags are_settled (sheets.positions.size (), 1);
+  EXPECT_FALSE (sheets.repair ({}, Repair::AT_THE_END, are_settled).hasChanged ());
   const Repairs done = sheets.repair ({}, Repair::AT_THE_END);
   EXPECT_TRUE (sheets.crossing ().empty ());
   EXPECT_GE (done.moves + done.flips, 2U);
@@ -205,7 +209,7 @@ TEST (FlawRepair, AFoldIsFlippedUnlessThatMakesTrianglesCross)
     ASSERT_EQ (findFolds (mesh, positions, 1).size (), 1U);
     const std::vector<Eigen::Vector3f> normals (7, Eigen::Vector3f::Zero ());
     const Repairs done = repairFlaws (mesh, crossing, neighbors, TriangleCost (positions, normals),
-                                      positions, Repair::AT_THE_END, {}, {}, 1);
+                                      positions, Repair::AT_THE_END, {}, {}, {}, 1);
     EXPECT_EQ (done.flips, is_in_the_way ? 0U : 1U);
     EXPECT_TRUE (crossing.empty ());
     EXPECT_EQ (findFolds (mesh, positions, 1).size (), is_in_the_way ? 1U : 0U);
@@ -307,7 +311,7 @@ TEST (Ridges, AreKeptByTheRepair)
     CrossingPairs crossing;
     const Repairs done =
         repairFlaws (mesh, crossing, neighbors, cost, sharp.positions, Repair::BEFORE_REMAKING,
-                     are_known ? ridges : Ridges{}, {}, 1);
+                     are_known ? ridges : Ridges{}, {}, {}, 1);
     EXPECT_TRUE (done.hasChanged ());
     EXPECT_EQ (std::all_of (ridges.ends.begin (), ridges.ends.end (),
                             [&] (const auto& ends) { return mesh.hasEdge (ends[0], ends[1]); }),

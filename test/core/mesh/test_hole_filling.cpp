@@ -4,8 +4,7 @@
 // beside it, and triangles that only fill its notches.
 #include "mesh/hole_filling.h"
 
-#include "mesh/crossed_fillings.h"
-#include "mesh/folds.h"
+#include "mesh/finish.h"
 #include "mesh/known_meshes.h"
 #include "mesh/open_boundary.h"
 #include "mesh/trimming.h"
@@ -143,6 +142,7 @@ TEST (HoleFilling, OnlyTrianglesThatFitAreTaken)
 struct Crossed : UprightMesh
 {
   std::size_t before = mesh.triangles.size ();
+  Triangles filled;
   CrossingPairs pairs;
   Flags is_crossing; // of each point
 
@@ -153,6 +153,7 @@ struct Crossed : UprightMesh
     EXPECT_EQ (loops.size (), 3U);
     loops[0].keep_open = loops[2].keep_open = true;
     EXPECT_EQ (fill (*this), 1U);
+    filled = mesh.triangles;
     pairs = findSelfIntersections (mesh.triangles, positions, 1);
     is_crossing.assign (positions.size (), 0);
     for (const CrossingPair& pair : pairs)
@@ -161,28 +162,59 @@ struct Crossed : UprightMesh
           is_crossing[p] = 1;
   }
 
-  CrossedFillings fillings () const
+  TriangleMesh refilled (Flags& is_chosen, bool may_stay_open)
   {
-    return {mesh, before, loops, positions, TriangleCost (positions, normals), 1};
+    return refillCrossed (filled, before, loops, is_chosen, may_stay_open, positions,
+                          TriangleCost (positions, normals), 1);
+  }
+};
+
+// A ring, the hole of which has a sheet in it.
+struct Pierced : Crossed
+{
+  Pierced ()
+      : Crossed (ringOf (16), cells (8, 8, [] (Index x, Index y) {
+                   return Eigen::Vector3d (x / 8.0 - 0.5, 0.01, y / 8.0 - 0.5);
+                 }))
+  {
   }
 };
 
 TEST (CrossedFillings, AHoleWithASheetInItStaysOpenIfItMay)
 {
-  Crossed crossed (ringOf (16), cells (8, 8, [] (Index x, Index y) {
-                     return Eigen::Vector3d (x / 8.0 - 0.5, 0.01, y / 8.0 - 0.5);
-                   }));
-  const CrossedFillings fillings = crossed.fillings ();
-  ASSERT_FALSE (fillings.empty ());
-  EXPECT_TRUE (fillings.replaced (crossed.is_crossing, false, crossed.loops).empty ());
-  const Flags none (crossed.positions.size (), 0);
-  EXPECT_TRUE (fillings.replaced (none, true, crossed.loops).empty ());
-  EXPECT_FALSE (crossed.loops[1].keep_open);
-  Triangles without = crossed.mesh.triangles;
-  without.resize (crossed.before);
-  EXPECT_EQ (fillings.replaced (crossed.is_crossing, true, crossed.loops), without);
-  EXPECT_TRUE (crossed.loops[1].keep_open);
-  EXPECT_TRUE (crossed.loops[1].judgement.is_too_deep);
+  Pierced crossed;
+  for (const Flags& chosen : {crossed.is_crossing, Flags (crossed.positions.size (), 0)})
+    for (const bool may_stay_open : {false, true}) {
+      Flags is_chosen = chosen;
+      const bool opens = may_stay_open && chosen == crossed.is_crossing;
+      EXPECT_EQ (crossed.refilled (is_chosen, may_stay_open).triangles.size (),
+                 opens ? crossed.before : 0);
+      EXPECT_EQ (crossed.loops[1].keep_open, opens);
+      EXPECT_EQ (crossed.loops[1].judgement.is_too_deep, opens);
+      EXPECT_EQ (std::count (is_chosen.begin (), is_chosen.end (), 1), opens ? 16 : 0);
+      crossed.loops[1].keep_open = crossed.loops[1].judgement.is_too_deep = false;
+    }
+}
+
+// Another mesh is asked for where triangles still cross.
+TEST (CrossedFillings, AreReplacedInTheFinish)
+{
+  for (const bool has_other : {false, true}) {
+    Pierced crossed;
+    LocalGeometry geometry;
+    geometry.neighbors = nearestOf (crossed.positions, 20);
+    geometry.stars.normals = crossed.normals;
+    geometry.spacing.assign (crossed.positions.size (), 0.3F);
+    FinishSettings settings;
+    settings.repair = true;
+    if (has_other)
+      settings.other = [&] (Flags& is_chosen) { return crossed.refilled (is_chosen, true); };
+    const MeshFinish finish = finishMesh (crossed.mesh, crossed.positions, geometry, settings, 1);
+    EXPECT_EQ (finish.crossing->empty (), has_other);
+    EXPECT_EQ (crossed.loops[1].keep_open, has_other);
+    expectTopology (crossed.mesh.triangles, crossed.positions.size (), 2, has_other ? 1 : 2,
+                    has_other ? 3 : 2);
+  }
 }
 
 // Four points that are high and low in turn may be filled by a ridge or by a valley.
@@ -202,16 +234,15 @@ TEST (CrossedFillings, AnotherFillingLeavesTheSheetAlone)
                        return Eigen::Vector3d (0.02 * x - 0.03, 0.02 * x - 0.05,
                                                side * (0.1 + 0.2 * y));
                      }));
-    const CrossedFillings fillings = crossed.fillings ();
-    EXPECT_EQ (fillings.empty (), crossed.pairs.empty ());
-    if (fillings.empty ())
+    const TriangleMesh other = crossed.refilled (crossed.is_crossing, true);
+    EXPECT_EQ (other.triangles.empty (), crossed.pairs.empty ());
+    if (other.triangles.empty ())
       continue;
     ++crossing;
-    const Triangles other = fillings.replaced (crossed.is_crossing, true, crossed.loops);
-    EXPECT_EQ (other.size (), crossed.mesh.triangles.size ());
-    EXPECT_TRUE (findSelfIntersections (other, crossed.positions, 1).empty ());
+    EXPECT_EQ (other.triangles.size (), crossed.mesh.triangles.size ());
+    EXPECT_TRUE (findSelfIntersections (other.triangles, crossed.positions, 1).empty ());
     EXPECT_FALSE (crossed.loops[1].keep_open);
-    expectConsistent (connected (other, crossed.positions.size ()));
+    expectConsistent (other);
   }
   EXPECT_EQ (crossing, 1U);
 }

@@ -7,7 +7,7 @@
 #include "mesh/known_meshes.h"
 #include "mesh/neck_cutting.h"
 #include "mesh/piece_in_place.h"
-#include "mesh/two_sides.h"
+#include "mesh/zone_splicing.h"
 #include "mesh_oracle.h"
 
 #include <gtest/gtest.h>
@@ -203,17 +203,53 @@ TEST (Remaking, LeavesOutIslands)
 // A window has one sheet around it and stays; a loop of five points is none.
 TEST (Remaking, KeepsOpenings)
 {
-  const auto zones = [] (Index around) {
+  const auto zones = [] (Index around, bool are_settled = false) {
     const Mesh ring = annulus (around);
     LocalGeometry geometry;
     geometry.neighbors = nearestOf (ring.positions, 20);
     geometry.spacing.assign (ring.positions.size (), 0.2F);
     return findDisturbedZones (connected (ring), ring.positions, geometry, {}, 3,
-                               GapParts::LONG_PARTS, true, 1)
+                               GapParts::LONG_PARTS, true,
+                               Flags (are_settled ? ring.positions.size () : 0, 1), 1)
         .points.rows ();
   };
   EXPECT_EQ (zones (12), 0U);
   EXPECT_GT (zones (5), 0U);
+  EXPECT_EQ (zones (5, true), 0U);
+}
+
+// Two meshes differ at three edges. The mesh may face the other side.
+TEST (Remaking, TakesChosenPlacesOfAnotherMesh)
+{
+  for (const bool is_turned : {false, true}) {
+    const Mesh flat = cells (20, 20, [] (Index x, Index y) { return Eigen::Vector3d (x, y, 0.0); });
+    TriangleMesh before = connected (flat), other = before, expected = before;
+    const auto flip = [] (TriangleMesh& mesh, Index x, Index y) {
+      mesh.flip ({2 * (20 * y + x), 1}); // the diagonal of a cell
+    };
+    flip (before, 3, 3);
+    flip (before, 3, 15);
+    flip (other, 15, 15);
+    for (const auto& [x, y] : {std::pair{3U, 15U}, {15U, 15U}})
+      flip (expected, x, y);
+    for (TriangleMesh* const mesh : {&before, &expected})
+      for (Triangle& t : mesh->triangles)
+        t = turnedIf (is_turned, t);
+    const TriangleMesh mesh = connected (before.triangles, flat.positions.size ());
+    Flags is_chosen (flat.positions.size (), 0);
+    is_chosen[21 * 3 + 3] = is_chosen[21 * 15 + 15] = is_chosen[21 * 10 + 10] = 1;
+    std::vector<std::optional<NewZone>> zones = placesOf (other, mesh, is_chosen);
+    EXPECT_EQ (zones.size (), 2U);
+    EXPECT_EQ (std::count (is_chosen.begin (), is_chosen.end (), 1), 8);
+    const TriangleMesh after = connected (spliceZones (mesh, zones), flat.positions.size ());
+    EXPECT_EQ (after.triangles.size (), expected.triangles.size ());
+    for (const Triangle& t : expected.triangles) {
+      const Index same = after.triangleWith (t);
+      ASSERT_NE (same, NONE);
+      EXPECT_EQ (areaVectorOf (after.triangles[same], flat.positions),
+                 areaVectorOf (t, flat.positions));
+    }
+  }
 }
 
 // Edges of the shortest loop; 0 if there is none.
