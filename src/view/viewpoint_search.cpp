@@ -87,8 +87,6 @@ struct ViewpointSearch
       if (may_be_far && !candidate.viewpoint.is_far) {
         if (!ends && (!found || found->is_certain))
           takeBetter (refine (mirrored (candidate.viewpoint)), found);
-        if (!found)
-          takeBetter (refine (candidate.viewpoint, CLOSER * AREA_ERROR), found);
         if (!found && in_rows)
           takeBetter (refineBy (candidate.viewpoint, AREA_ERROR, Measure::DENSITY), found);
       }
