@@ -3,6 +3,8 @@
 // Crossing pairs of a mesh, updated while the mesh changes.
 #pragma once
 
+#include "core/order_statistics.h"
+#include "core/parallel.h"
 #include "mesh/box_tree.h"
 #include "mesh/self_intersections.h"
 #include "mesh/triangle_mesh.h"
@@ -151,5 +153,31 @@ private:
   std::unordered_map<Index, std::vector<Index>> partners_; // of the triangles that cross others
   std::size_t tests_ = 0;
 };
+
+/// All pairs of a changed mesh. Only triangles that come are searched for pairs: a tenth of the time of
+/// findSelfIntersections (), where these are few. O(n).
+/// \param before other triangles of the same points; \param known all their pairs
+inline CrossingPairs
+pairsAfterChange (const TriangleMesh& mesh, const Positions& positions,
+                  const std::vector<Triangle>& before, const CrossingPairs& known,
+                  const RunContext& run)
+{
+  if (!known.untested.empty ())
+    return findSelfIntersections (mesh.triangles, positions, run);
+  std::vector<Index> now (before.size ());
+  parallelPoints (run, now.size (), [&] (Index t) { now[t] = mesh.triangleWith (before[t]); });
+  Flags is_new (mesh.triangles.size (), 1);
+  for (const Index t : now)
+    if (t != NONE)
+      is_new[t] = 0;
+  std::vector<CrossingPair> kept;
+  for (const auto& [t, u] : known)
+    if (now[t] != NONE && now[u] != NONE && now[t] != now[u])
+      kept.push_back (std::minmax (now[t], now[u]));
+  sortUnique (kept);
+  CrossingTable table (mesh, positions, kept, run);
+  table.accept (indicesWhere (is_new.size (), [&] (Index t) { return is_new[t] != 0; }));
+  return table.pairs ();
+}
 
 } // namespace pcl::floater

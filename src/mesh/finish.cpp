@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/finish.h"
 
+#include "mesh/crossing_table.h"
 #include "mesh/flips.h"
 #include "mesh/hole_filling.h"
 #include "mesh/neck_cutting.h"
@@ -51,7 +52,7 @@ openOnce (TriangleMesh& mesh, const Positions& positions, const CsrLists& neighb
   const auto unused = countUnused ();
   removeTriangles (mesh, std::move (is_chosen), run);
   addMissingPoints (mesh, positions, neighbors, run);
-  CrossingPairs after = findSelfIntersections (mesh.triangles, positions, run);
+  CrossingPairs after = pairsAfterChange (mesh, positions, before, crossing, run);
   if (after.size () < crossing.size () && after.untested.empty () && countUnused () <= unused) {
     crossing = std::move (after);
     return true;
@@ -168,18 +169,20 @@ struct MeshFinisher
     begin (other);
     if (finish.remade.is_noise) {
       mesh = std::move (other);
+      finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
       finish.remade.is_remade.clear ();
     }
     else {
       std::vector<std::optional<NewZone>> places = placesOf (other, mesh, is_chosen);
-      mesh.triangles = spliceZones (mesh, places);
+      std::vector<Triangle> before = spliceZones (mesh, places);
+      mesh.triangles.swap (before);
       mesh.connect (positions.size (), run);
+      finish.crossing = pairsAfterChange (mesh, positions, before, *finish.crossing, run);
       for (const std::uint8_t comes : is_chosen)
         finish.remade.is_settled.push_back (comes ^ 1U);
       for (std::size_t p = 0; p < finish.remade.is_remade.size (); ++p)
         finish.remade.is_remade[p] &= finish.remade.is_settled[p];
     }
-    finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
     return true;
   }
 };

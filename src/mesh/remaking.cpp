@@ -3,7 +3,7 @@
 #include "mesh/remaking.h"
 
 #include "core/disjoint_sets.h"
-#include "core/parallel.h"
+#include "mesh/crossing_table.h"
 #include "mesh/piece_in_place.h"
 #include "mesh/zone_splicing.h"
 
@@ -295,8 +295,8 @@ remakeZones (TriangleMesh& mesh, const Positions& positions, const LocalGeometry
       if (zone)
         for (const Index p : zone->points)
           remade.is_remade[p] = 1;
+    crossing = pairsAfterChange (spliced, positions, mesh.triangles, crossing, run);
     mesh = std::move (spliced);
-    crossing = findSelfIntersections (mesh.triangles, positions, run);
     has_changed = true;
   }
   return has_changed;

@@ -3,6 +3,7 @@
 // Triangles that cross each other: all are found and told; what is cut off on request.
 #include "mesh/self_intersections.h"
 
+#include "mesh/crossing_table.h"
 #include "mesh/known_meshes.h"
 #include "mesh/trimming.h"
 #include "report/findings.h"
@@ -69,6 +70,13 @@ TEST (SelfIntersections, AllPairsAreFound)
           all.push_back ({t, u});
     EXPECT_GT (all.size (), 100U);
     EXPECT_EQ (crossingOf (mesh), all);
+    // A third of the triangles come, and one goes; the others were turned and in another order.
+    Triangles before (mesh.triangles.rbegin () + 150, mesh.triangles.rend ());
+    for (Triangle& t : before)
+      std::swap (t[0], t[1]);
+    before.push_back ({0, 4, 8});
+    const CrossingPairs known = findSelfIntersections (before, mesh.positions, 1);
+    EXPECT_EQ (pairsAfterChange (connected (mesh), mesh.positions, before, known, 1), all);
   }
 }
 
