@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "consensus/consensus.h"
 
-#include "core/disjoint_sets.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/trimming.h"

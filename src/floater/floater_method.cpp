@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/floater_method.h"
 
-#include "core/geometry.h"
 #include "floater/planar_delaunay.h"
 #include "floater/weights.h"
 

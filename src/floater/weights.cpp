@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/weights.h"
 
-#include "core/geometry.h"
 #include "core/parallel.h"
 
 namespace pcl::floater {

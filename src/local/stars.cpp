@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "local/stars.h"
 
-#include "core/geometry.h"
 #include "core/parallel.h"
 #include "local/planar_star.h"
 

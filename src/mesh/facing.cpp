@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/facing.h"
 
-#include "core/parallel.h"
 #include "mesh/facing_objects.h"
 #include "mesh/visibility.h"
 

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/flaw_repair.h"
 
-#include "core/geometry.h"
-#include "core/order_statistics.h"
-#include "core/parallel.h"
 #include "mesh/crossing_table.h"
 #include "mesh/vertex_mover.h"
 

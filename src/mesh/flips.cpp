@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/flips.h"
 
-#include "core/geometry.h"
 #include "core/parallel.h"
 #include "mesh/vertex_stars.h"
 

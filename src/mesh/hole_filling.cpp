@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/hole_filling.h"
 
-#include "core/parallel.h"
 #include "mesh/box_tree.h"
 #include "mesh/self_intersections.h"
 

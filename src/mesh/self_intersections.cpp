@@ -4,7 +4,6 @@
 
 #include "core/exact.h"
 #include "core/geometry.h"
-#include "core/parallel.h"
 #include "mesh/box_tree.h"
 #include "mesh/vertex_stars.h"
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/triangle_cost.h"
 
-#include "core/geometry.h"
-
 namespace pcl::floater {
 TriangleCost::Value
 TriangleCost::operator() (Index a, Index b, Index c) const

@@ -3,7 +3,6 @@
 #include "mesh/two_sides.h"
 
 #include "core/disjoint_sets.h"
-#include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "mesh/side_mending.h"
 #include "mesh/triangle_mesh.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/vertex_splits.h"
 
-#include "core/geometry.h"
 #include "points/kd_tree.h"
 
 namespace pcl::floater {

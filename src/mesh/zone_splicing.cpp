@@ -3,7 +3,6 @@
 #include "mesh/zone_splicing.h"
 
 #include "core/disjoint_sets.h"
-#include "core/order_statistics.h"
 #include "mesh/piece_in_place.h"
 
 #include <map>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/chart_layout.h"
 
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "floater/floater_method.h"
 #include "floater/solvers/solver.h"

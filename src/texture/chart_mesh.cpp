@@ -3,7 +3,6 @@
 #include "texture/chart_mesh.h"
 
 #include "core/exact.h"
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 
 #include <Eigen/LU>

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/charts.h"
 
-#include "core/geometry.h"
-
 #include <queue>
 #include <tuple>
 #include <unordered_map>

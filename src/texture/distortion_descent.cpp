@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exact.h"
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "texture/chart_layout.h"
 

@@ -3,7 +3,6 @@
 // Texture coordinates of a mesh: charts, their layout, the atlas.
 #include "core/order_statistics.h"
 #include "core/parallel.h"
-#include "core/problem.h"
 #include "floater/solvers/solver.h"
 #include "texture/chart_layout.h"
 #include "texture/charts.h"

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pcl_floater authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "view/view_flips.h"

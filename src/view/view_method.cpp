@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/view_method.h"
 
-#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "floater/planar_delaunay.h"
 #include "mesh/check.h"

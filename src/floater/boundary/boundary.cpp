@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "floater/boundary/boundary.h"
 
-#include "core/csr_lists.h"
 #include "core/disjoint_sets.h"
-#include "core/geometry.h"
 #include "core/order_statistics.h"
 #include "core/parallel.h"
 #include "local/planar_star.h"
