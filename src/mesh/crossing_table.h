@@ -173,7 +173,7 @@ pairsAfterChange (const TriangleMesh& mesh, const Positions& positions,
   std::vector<CrossingPair> kept;
   for (const auto& [t, u] : known)
     if (now[t] != NONE && now[u] != NONE && now[t] != now[u])
-      kept.push_back (std::minmax (now[t], now[u]));
+      kept.emplace_back (std::minmax (now[t], now[u]));
   sortUnique (kept);
   CrossingTable table (mesh, positions, kept, run);
   table.accept (indicesWhere (is_new.size (), [&] (Index t) { return is_new[t] != 0; }));

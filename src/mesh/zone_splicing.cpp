@@ -178,6 +178,7 @@ placesOf (const TriangleMesh& other, const TriangleMesh& mesh, Flags& is_chosen)
         zone.patches.emplace_back (u, s[(mesh.sideOf (same[i], t[0]) + 1U) % 3] != t[1]);
   }
   std::vector<std::optional<NewZone>> zones;
+  zones.reserve (zone_of.size ());
   for (auto& [first, zone] : zone_of)
     zones.emplace_back (std::move (zone));
   return zones;
