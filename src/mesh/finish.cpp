@@ -155,15 +155,18 @@ struct MeshFinisher
       finish.crossing = findSelfIntersections (mesh.triangles, positions, run);
   }
 
-  // Takes the other mesh where triangles cross, and in noise all of it. What is far from there is settled.
+  // Takes the other mesh where triangles cross, and in noise all of it. What is far from there is settled. Not
+  // twice: the places of the first time may turn out to be noise.
   bool takeOther ()
   {
+    if (finish.crossing->empty () || !finish.remade.is_settled.empty ())
+      return false;
     Flags is_chosen (positions.size (), 0);
     for (const CrossingPair& pair : *finish.crossing)
       for (const Index t : {pair.first, pair.second})
         for (const Index p : mesh.triangles[t])
           is_chosen[p] = 1;
-    TriangleMesh other = finish.crossing->empty () ? TriangleMesh () : settings.other (is_chosen);
+    TriangleMesh other = settings.other (is_chosen);
     if (other.triangles.empty ())
       return false;
     begin (other);
